@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/vec.h"
+
+namespace brume {
+
+/// Piecewise-constant density over [0, 1) given by non-negative weights; uniform when all are 0.
+class Distribution1d {
+ public:
+  explicit Distribution1d(std::span<const float> weights);
+
+  struct Sample {
+    float x;            // [0, 1)
+    float pdf;          // density at x
+    std::size_t index;  // of the weight
+  };
+  Sample sample(float u) const;
+  float pdf(float x) const;
+
+  /// Probability of weight `index`.
+  float probability(std::size_t index) const;
+  double total() const { return total_; }
+  std::size_t size() const { return cdf_.size() - 1; }
+
+ private:
+  std::vector<double> cdf_;  // [size + 1], from 0 to 1
+  double total_;             // sum of the weights
+};
+
+/// Piecewise-constant density over [0, 1)^2: rows of `width` weights, row by row from y = 0.
+class Distribution2d {
+ public:
+  Distribution2d(std::span<const float> weights, std::size_t width, std::size_t height);
+
+  struct Sample {
+    Vec2 xy;
+    float pdf;  // density at xy
+  };
+  Sample sample(const Vec2& u) const;
+  float pdf(const Vec2& xy) const;
+
+ private:
+  std::vector<Distribution1d> rows_;
+  Distribution1d marginal_;
+};
+
+}  // namespace brume

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "core/rgb.h"
+#include "core/vec.h"
+
+namespace brume {
+
+/// Light arriving at a point, before anything in between takes its share.
+struct LightSample {
+  Vec3 d;          // unit, from the point toward the light
+  float distance;  // to the light, less what rounding asks for [unit]; infinite for the environment
+  Rgb weight;      // radiance / pdf; for a Dirac in direction, the perpendicular irradiance
+  float pdf;       // of `d` in solid angle [1/sr]; infinite for a Dirac
+};
+
+/// Something that emits, seen from a point.
+class Light {
+ public:
+  virtual ~Light() = default;
+
+  /// Light arriving at `p` from a direction chosen by importance; nothing when none can arrive.
+  virtual std::optional<LightSample> sample(const Vec3& p, const Vec2& u) const = 0;
+};
+
+}  // namespace brume

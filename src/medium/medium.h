@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "core/ray.h"
+#include "core/rgb.h"
+#include "core/rng.h"
+#include "core/sampler.h"
+#include "phase/henyey_greenstein.h"
+
+namespace brume {
+
+/// What a segment of a path meets first: scattering inside the medium, or its end.
+struct FreeFlight {
+  bool scattered = false;
+  float t = 0.0f;           // where, in [0, t_max) if scattered, else t_max [unit]
+  Rgb weight{1.0f};         // transmittance and albedo over the probability of this outcome
+  HenyeyGreenstein phase{};  // at the scattering event
+};
+
+/// A participating medium. It fills whatever its boundary encloses; where its own volume data
+/// ends, it is vacuum.
+class Medium {
+ public:
+  virtual ~Medium() = default;
+
+  /// How far light travels before it scatters, up to `t_max` (which may be infinite). `beta` is
+  /// the throughput so far and guides the choice of colour channel, not the expectation.
+  virtual FreeFlight sample_free_flight(const Ray& ray, float t_max, const Rgb& beta,
+                                        Sampler& sampler) const = 0;
+
+  /// Unbiased estimate of exp(-int_0^t_max sigma_t dt); exact where a closed form exists.
+  virtual Rgb transmittance(const Ray& ray, float t_max, Rng& rng) const = 0;
+};
+
+}  // namespace brume
