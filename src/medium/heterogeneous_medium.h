@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "medium/medium.h"
+#include "volume/field.h"
+#include "volume/grid.h"
+
+namespace brume {
+
+/// Medium whose extinction is a grid: `sigma_t` = density * `density_scale` [1/unit], vacuum
+/// outside the grid's box. Free flights by delta tracking, transmittance by ratio tracking, both
+/// along the cells of a bounds grid (Woodcock et al. 1965; Novak et al. 2014).
+/// A coloured density is tracked in all channels at once with one scalar majorant and collision
+/// probabilities that follow the throughput (Kutz et al. 2017).
+/// `albedo` in [0, 1] is read at real collisions only.
+std::shared_ptr<const Medium> make_heterogeneous_medium(
+    std::shared_ptr<const Grid<float>> density, float density_scale,
+    std::shared_ptr<const ColorField> albedo, HenyeyGreenstein phase);
+std::shared_ptr<const Medium> make_heterogeneous_medium(
+    std::shared_ptr<const Grid<Rgb>> density, float density_scale,
+    std::shared_ptr<const ColorField> albedo, HenyeyGreenstein phase);
+
+}  // namespace brume

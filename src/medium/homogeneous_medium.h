@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "medium/medium.h"
+
+namespace brume {
+
+/// Constant coefficients everywhere inside the boundary; everything is in closed form.
+class HomogeneousMedium final : public Medium {
+ public:
+  /// `sigma_t` [1/unit] >= 0 and `albedo` = sigma_s / sigma_t in [0, 1], per channel.
+  HomogeneousMedium(const Rgb& sigma_t, const Rgb& albedo, HenyeyGreenstein phase)
+      : sigma_t_(sigma_t), albedo_(albedo), phase_(phase) {}
+
+  /// Beer-Lambert law: the fraction of light that crosses `distance` [unit] without a collision.
+  Rgb transmittance(float distance) const;
+
+  /// Distance to the next medium event, exponential with the extinction of `channel` [unit];
+  /// infinite where that channel has none. `u` in [0, 1).
+  float sample_distance(int channel, float u) const;
+
+  /// Probability that `sample_distance`, with its channel drawn from `p_channel`, passes
+  /// `distance` [unit]: what a surface there is divided by.
+  float probability_of_passing(float distance, const Rgb& p_channel) const;
+
+  FreeFlight sample_free_flight(const Ray& ray, float t_max, const Rgb& beta,
+                                Sampler& sampler) const override;
+  Rgb transmittance(const Ray& ray, float t_max, Rng& rng) const override;
+
+ private:
+  Rgb sigma_t_;  // [1/unit]
+  Rgb albedo_;
+  HenyeyGreenstein phase_;
+};
+
+}  // namespace brume

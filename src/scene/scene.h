@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/rng.h"
+#include "geometry/ray_queries.h"
+#include "geometry/shape.h"
+#include "light/area_light.h"
+#include "light/light_set.h"
+#include "material/bsdf.h"
+#include "medium/medium.h"
+
+namespace brume {
+
+/// A shape with everything that happens at it.
+struct Surface {
+  std::shared_ptr<const Shape> shape;
+  std::shared_ptr<const Bsdf> bsdf;
+  std::optional<Rgb> radiance{};  // emitted from the outside [W/(m^2 sr)]; none: not a light
+  bool is_boundary = false;       // whether crossing the surface changes the medium
+  std::shared_ptr<const Medium> interior{}, exterior{};  // null is vacuum; used if is_boundary
+};
+
+/// What a scene is made of, before it is put in order for rendering.
+struct SceneParts {
+  std::vector<Surface> surfaces;
+  std::vector<std::shared_ptr<const Light>> lights;  // point, spot, directional
+  std::vector<std::shared_ptr<const EnvironmentLight>> environments;
+  std::shared_ptr<const Medium> world_medium;  // outside all shapes; null is vacuum
+};
+
+/// Everything an integrator asks about the world. Immutable; shared between threads. Without
+/// surfaces no acceleration structure exists.
+class Scene {
+ public:
+  explicit Scene(SceneParts parts);
+
+  /// Nearest surface point along `ray` in (0, t_max).
+  std::optional<Hit> intersect(const Ray& ray, float t_max) const;
+
+  const Bsdf& bsdf(const Hit& hit) const { return *surfaces_[hit.shape].bsdf; }
+
+  /// Medium behind the surface for light that crosses it in direction `d` out of `medium`.
+  const Medium* medium_across(const Hit& hit, const Vec3& d, const Medium* medium) const;
+
+  /// Medium at a point, found from the boundaries around it; null is vacuum. `unanimous` tells
+  /// whether all boundaries agree, which they do when they are closed.
+  struct MediumAt {
+    const Medium* medium;
+    bool unanimous;
+  };
+  MediumAt medium_at(const Vec3& p) const;
+
+  /// Medium at `to`, a point near `from` where the medium is known.
+  const Medium* medium_beside(const Vec3& from, const Medium* medium, const Vec3& to) const;
+
+  /// Unbiased estimate of the fraction of light that crosses `distance` along `ray` from within
+  /// `medium`: through media and through surfaces that let light pass straight.
+  Rgb transmittance(const Ray& ray, float distance, const Medium* medium, Rng& rng) const;
+
+  /// Emission of the surface at `hit` toward the origin of a ray in direction `d`, and the density
+  /// with which light sampling from `from` finds that point; empty when the surface emits nothing.
+  struct Emission {
+    Rgb L;      // [W/(m^2 sr)]
+    float pdf;  // [1/sr]
+  };
+  std::optional<Emission> emission(const Vec3& from, const Hit& hit, const Vec3& d) const;
+
+  const LightSet& lights() const { return lights_; }
+
+ private:
+  std::vector<Surface> surfaces_;
+  std::shared_ptr<const Medium> world_medium_;
+  std::optional<RayQueries> queries_;
+  LightSet lights_;
+  std::vector<int> light_of_surface_;  // index in lights_, or -1
+};
+
+}  // namespace brume
