@@ -28,7 +28,10 @@ Distribution1d::Sample Distribution1d::sample(float u) const {
   const double width = cdf_[index + 1] - cdf_[index];
   const double offset = (u - cdf_[index]) / width;
   const float x = static_cast<float>((double(index) + offset) / double(size()));
-  return {.x = std::min(x, kOneMinusEpsilon), .pdf = float(width * double(size())), .index = index};
+  return {.x = std::min(x, kOneMinusEpsilon),
+          .pdf = float(width * double(size())),
+          .index = index,
+          .offset = std::min(static_cast<float>(offset), kOneMinusEpsilon)};
 }
 
 float Distribution1d::pdf(float x) const {
@@ -62,7 +65,11 @@ Distribution2d::Distribution2d(std::span<const float> weights, std::size_t width
 Distribution2d::Sample Distribution2d::sample(const Vec2& u) const {
   const Distribution1d::Sample y = marginal_.sample(u.y);
   const Distribution1d::Sample x = rows_[y.index].sample(u.x);
-  return {.xy = {x.x, y.x}, .pdf = x.pdf * y.pdf};
+  return {.xy = {x.x, y.x},
+          .pdf = x.pdf * y.pdf,
+          .column = x.index,
+          .row = y.index,
+          .offset = {x.offset, y.offset}};
 }
 
 float Distribution2d::pdf(const Vec2& xy) const {

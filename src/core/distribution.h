@@ -17,6 +17,7 @@ class Distribution1d {
     float x;            // [0, 1)
     float pdf;          // density at x
     std::size_t index;  // of the weight
+    float offset;       // of x within the interval of that weight, [0, 1)
   };
   Sample sample(float u) const;
   float pdf(float x) const;
@@ -38,7 +39,9 @@ class Distribution2d {
 
   struct Sample {
     Vec2 xy;
-    float pdf;  // density at xy
+    float pdf;                // density at xy
+    std::size_t column, row;  // of the weight
+    Vec2 offset;              // of xy within the rectangle of that weight, [0, 1)^2
   };
   Sample sample(const Vec2& u) const;
   float pdf(const Vec2& xy) const;
