@@ -46,6 +46,8 @@ class Distribution2d {
   Sample sample(const Vec2& u) const;
   float pdf(const Vec2& xy) const;
 
+  double total() const { return marginal_.total(); }
+
  private:
   std::vector<Distribution1d> rows_;
   Distribution1d marginal_;

@@ -29,9 +29,7 @@ struct Frame {
     t = glm::cross(n, s);
   }
 
-  Vec3 to_local(const Vec3& v) const {
-    return {glm::dot(v, s), glm::dot(v, t), glm::dot(v, n)};
-  }
+  Vec3 to_local(const Vec3& v) const { return {glm::dot(v, s), glm::dot(v, t), glm::dot(v, n)}; }
   Vec3 to_world(const Vec3& v) const { return v.x * s + v.y * t + v.z * n; }
 };
 

@@ -43,7 +43,9 @@ constexpr std::uint32_t sobol_second(std::uint32_t i) {
 }
 
 /// Top 24 bits as a float in [0, 1).
-constexpr float to_unit_interval(std::uint32_t x) { return static_cast<float>(x >> 8) * 0x1p-24f; }
+constexpr float to_unit_interval(std::uint32_t x) {
+  return static_cast<float>(x >> 8) * 0x1p-24f;
+}
 
 }  // namespace
 
@@ -68,10 +70,10 @@ Vec2 Sampler::next_2d() {
   const std::uint64_t scrambles = mix_bits(hash);
   dimension_ += 2;
   const std::uint32_t index = shuffle(index_, static_cast<std::uint32_t>(hash));
-  return {to_unit_interval(
-              owen_scramble(reverse_bits(index), static_cast<std::uint32_t>(scrambles))),
-          to_unit_interval(
-              owen_scramble(sobol_second(index), static_cast<std::uint32_t>(scrambles >> 32)))};
+  return {
+      to_unit_interval(owen_scramble(reverse_bits(index), static_cast<std::uint32_t>(scrambles))),
+      to_unit_interval(
+          owen_scramble(sobol_second(index), static_cast<std::uint32_t>(scrambles >> 32)))};
 }
 
 }  // namespace brume

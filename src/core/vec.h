@@ -22,11 +22,15 @@ inline constexpr float kPi = 3.14159265358979323846f;
 /// Largest float below 1: the top of every interval [0, 1) of random numbers.
 inline constexpr float kOneMinusEpsilon = 0x1.fffffep-1f;
 
-inline float length_squared(const Vec3& v) { return glm::dot(v, v); }
+inline float length_squared(const Vec3& v) {
+  return glm::dot(v, v);
+}
 
 /// 1 - cos of the angle between the unit vectors `a` and `b`, without the cancellation of
 /// 1 - dot(a, b) for small angles: |a - b|^2 / 2.
-inline float one_minus_cos(const Vec3& a, const Vec3& b) { return 0.5f * length_squared(a - b); }
+inline float one_minus_cos(const Vec3& a, const Vec3& b) {
+  return 0.5f * length_squared(a - b);
+}
 
 /// Largest absolute component.
 inline float max_abs(const Vec3& v) {

@@ -11,7 +11,9 @@ namespace brume {
 namespace {
 
 /// Optical thickness that a flight passes before its next tentative collision; `u` in [0, 1).
-float sample_optical_thickness(float u) { return -std::log1p(-u); }
+float sample_optical_thickness(float u) {
+  return -std::log1p(-u);
+}
 
 // --- What a tentative collision with extinction `sigma_t` under the majorant turns into.
 // Returns whether it is real; multiplies `weight` by value over probability either way.
@@ -22,20 +24,23 @@ bool decide_collision(float sigma_t, float sigma_maj, const Rgb& /*beta*/, Rgb& 
 }
 
 /// Probability averaged over the channels with what each still carries (Kutz et al. 2017, eq. 14).
-bool decide_collision(const Rgb& sigma_t, float sigma_maj, const Rgb& beta, Rgb& weight,
-                      Rng& rng) {
+bool decide_collision(const Rgb& sigma_t, float sigma_maj, const Rgb& beta, Rgb& weight, Rng& rng) {
   const Rgb carried = beta * weight;
   const float total = carried.r + carried.g + carried.b;
   const Rgb p_real_channel = glm::min(sigma_t / sigma_maj, Rgb{1.0f});
-  const float p_real = total > 0.0f ? glm::dot(carried, p_real_channel) / total
-                                    : mean(p_real_channel);
+  const float p_real =
+      total > 0.0f ? glm::dot(carried, p_real_channel) / total : mean(p_real_channel);
   const bool real = rng.next_float() < p_real;
   weight *= real ? p_real_channel / p_real : (1.0f - p_real_channel) / (1.0f - p_real);
   return real;
 }
 
-float largest(float v) { return v; }
-float largest(const Rgb& v) { return max_component(v); }
+float largest(float v) {
+  return v;
+}
+float largest(const Rgb& v) {
+  return max_component(v);
+}
 
 template <class Value>
 class HeterogeneousMedium final : public Medium {
@@ -149,16 +154,18 @@ class HeterogeneousMedium final : public Medium {
 
 }  // namespace
 
-std::shared_ptr<const Medium> make_heterogeneous_medium(
-    std::shared_ptr<const Grid<float>> density, float density_scale,
-    std::shared_ptr<const ColorField> albedo, HenyeyGreenstein phase) {
+std::shared_ptr<const Medium> make_heterogeneous_medium(std::shared_ptr<const Grid<float>> density,
+                                                        float density_scale,
+                                                        std::shared_ptr<const ColorField> albedo,
+                                                        HenyeyGreenstein phase) {
   return std::make_shared<HeterogeneousMedium<float>>(std::move(density), density_scale,
                                                       std::move(albedo), phase);
 }
 
-std::shared_ptr<const Medium> make_heterogeneous_medium(
-    std::shared_ptr<const Grid<Rgb>> density, float density_scale,
-    std::shared_ptr<const ColorField> albedo, HenyeyGreenstein phase) {
+std::shared_ptr<const Medium> make_heterogeneous_medium(std::shared_ptr<const Grid<Rgb>> density,
+                                                        float density_scale,
+                                                        std::shared_ptr<const ColorField> albedo,
+                                                        HenyeyGreenstein phase) {
   return std::make_shared<HeterogeneousMedium<Rgb>>(std::move(density), density_scale,
                                                     std::move(albedo), phase);
 }

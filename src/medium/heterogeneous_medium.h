@@ -15,11 +15,13 @@ namespace brume {
 /// A coloured density is tracked in all channels at once with one scalar majorant and collision
 /// probabilities that follow the throughput (Kutz et al. 2017).
 /// `albedo` in [0, 1] is read at real collisions only.
-std::shared_ptr<const Medium> make_heterogeneous_medium(
-    std::shared_ptr<const Grid<float>> density, float density_scale,
-    std::shared_ptr<const ColorField> albedo, HenyeyGreenstein phase);
-std::shared_ptr<const Medium> make_heterogeneous_medium(
-    std::shared_ptr<const Grid<Rgb>> density, float density_scale,
-    std::shared_ptr<const ColorField> albedo, HenyeyGreenstein phase);
+std::shared_ptr<const Medium> make_heterogeneous_medium(std::shared_ptr<const Grid<float>> density,
+                                                        float density_scale,
+                                                        std::shared_ptr<const ColorField> albedo,
+                                                        HenyeyGreenstein phase);
+std::shared_ptr<const Medium> make_heterogeneous_medium(std::shared_ptr<const Grid<Rgb>> density,
+                                                        float density_scale,
+                                                        std::shared_ptr<const ColorField> albedo,
+                                                        HenyeyGreenstein phase);
 
 }  // namespace brume

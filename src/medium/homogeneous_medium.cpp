@@ -40,7 +40,9 @@ FreeFlight HomogeneousMedium::sample_free_flight(const Ray& /*ray*/, float t_max
   // where both underflow.
   const Rgb tau = sigma_t_ * t;
   const Rgb pdf = sigma_t_ * glm::exp(min_component(tau) - tau);
-  return {.scattered = true, .t = t, .weight = albedo_ * pdf / glm::dot(p_channel, pdf),
+  return {.scattered = true,
+          .t = t,
+          .weight = albedo_ * pdf / glm::dot(p_channel, pdf),
           .phase = phase_};
 }
 

@@ -8,8 +8,12 @@ namespace {
 std::atomic<std::uint64_t> violations{0};
 }
 
-std::uint64_t majorant_violations() { return violations.load(); }
+std::uint64_t majorant_violations() {
+  return violations.load();
+}
 
-void detail::count_majorant_violation() { ++violations; }
+void detail::count_majorant_violation() {
+  ++violations;
+}
 
 }  // namespace brume

@@ -12,8 +12,8 @@ namespace brume {
 /// What a segment of a path meets first: scattering inside the medium, or its end.
 struct FreeFlight {
   bool scattered = false;
-  float t = 0.0f;           // where, in [0, t_max) if scattered, else t_max [unit]
-  Rgb weight{1.0f};         // transmittance and albedo over the probability of this outcome
+  float t = 0.0f;            // where, in [0, t_max) if scattered, else t_max [unit]
+  Rgb weight{1.0f};          // transmittance and albedo over the probability of this outcome
   HenyeyGreenstein phase{};  // at the scattering event
 };
 

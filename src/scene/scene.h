@@ -48,6 +48,14 @@ class Scene {
   /// Medium behind the surface for light that crosses it in direction `d` out of `medium`.
   const Medium* medium_across(const Hit& hit, const Vec3& d, const Medium* medium) const;
 
+  /// Medium for light that left the surface in direction `d_out` after it arrived from `wo` (the
+  /// direction back along which it came) through `medium`.
+  const Medium* medium_toward(const Hit& hit, const Vec3& wo, const Vec3& d_out,
+                              const Medium* medium) const {
+    const bool crosses = glm::dot(wo, hit.n) * glm::dot(d_out, hit.n) < 0.0f;
+    return crosses ? medium_across(hit, d_out, medium) : medium;
+  }
+
   /// Medium at a point, found from the boundaries around it; null is vacuum. `unanimous` tells
   /// whether all boundaries agree, which they do when they are closed.
   struct MediumAt {

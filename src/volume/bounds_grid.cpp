@@ -7,8 +7,12 @@
 namespace brume {
 namespace {
 
-ValueRange range_of(float v) { return {v, v}; }
-ValueRange range_of(const Rgb& v) { return {min_component(v), max_component(v)}; }
+ValueRange range_of(float v) {
+  return {v, v};
+}
+ValueRange range_of(const Rgb& v) {
+  return {min_component(v), max_component(v)};
+}
 
 void extend(ValueRange& range, const ValueRange& other) {
   range.min = std::min(range.min, other.min);
@@ -94,8 +98,8 @@ std::optional<IndexSegment> clip_to_grid(const Ray& ray, float t_max, const Boun
     t1 = std::min(t1, std::max(a, b));
   }
   if (!(t0 < t1)) return std::nullopt;
-  return IndexSegment{.o = Vec3(o + t0 * d), .d = Vec3(d), .t_start = float(t0),
-                      .t_end = float(t1 - t0)};
+  return IndexSegment{
+      .o = Vec3(o + t0 * d), .d = Vec3(d), .t_start = float(t0), .t_end = float(t1 - t0)};
 }
 
 }  // namespace brume

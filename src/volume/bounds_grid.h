@@ -45,8 +45,8 @@ class BoundsGrid {
  private:
   static constexpr std::size_t kMaxCells = std::size_t(1) << 22;
 
-  Box3 box_;             // [voxels]
-  float cell_size_;      // [voxels]
+  Box3 box_;         // [voxels]
+  float cell_size_;  // [voxels]
   glm::ivec3 resolution_;
   std::vector<ValueRange> ranges_;  // [z][y][x], x fastest
   ValueRange total_;
@@ -91,8 +91,8 @@ void walk_cells(const BoundsGrid& bounds, const IndexSegment& segment, Visit&& v
 
   float t0 = 0.0f;
   while (true) {
-    const int axis = t_plane.x < t_plane.y ? (t_plane.x < t_plane.z ? 0 : 2)
-                                           : (t_plane.y < t_plane.z ? 1 : 2);
+    const int axis =
+        t_plane.x < t_plane.y ? (t_plane.x < t_plane.z ? 0 : 2) : (t_plane.y < t_plane.z ? 1 : 2);
     const float t1 = std::clamp(t_plane[axis], t0, segment.t_end);
     if (t1 > t0 && !visit(cell, t0, t1)) return;
     if (t_plane[axis] >= segment.t_end) return;

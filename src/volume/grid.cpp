@@ -21,8 +21,8 @@ float wrapped_coordinate(float x, float lo, float hi, Wrap wrap) {
 
 template <class Value>
 Grid<Value>::Grid(nanovdb::GridHandle<nanovdb::HostBuffer> handle,
-                  const glm::dmat4& world_from_index, const Box3& box,
-                  Interpolation interpolation, Wrap wrap)
+                  const glm::dmat4& world_from_index, const Box3& box, Interpolation interpolation,
+                  Wrap wrap)
     : handle_(std::move(handle)),
       nano_(handle_.grid<NanoValue>()),
       world_from_index_(world_from_index),

@@ -26,8 +26,12 @@ template <>
 struct NanoType<Rgb> {
   using type = nanovdb::Vec3f;
 };
-inline float from_nano(float v) { return v; }
-inline Rgb from_nano(const nanovdb::Vec3f& v) { return {v[0], v[1], v[2]}; }
+inline float from_nano(float v) {
+  return v;
+}
+inline Rgb from_nano(const nanovdb::Vec3f& v) {
+  return {v[0], v[1], v[2]};
+}
 }  // namespace detail
 
 /// A field of `Value` (float or Rgb) sampled at voxel centres, which are the integer points of

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "integrator/path_integrator.h"
+
+#include <cmath>
+
+#include "core/frame.h"
+#include "core/warp.h"
+
+namespace brume {
+
+namespace {
+/// Flights after which roulette stops every path sooner or later.
+constexpr int kLongPath = 10000;
+}  // namespace
+
+struct PathIntegrator::Path {
+  Ray ray;
+  float t_max;           // the camera's far clip before the first event, then infinite [unit]
+  const Medium* medium;  // around the ray's origin; null is vacuum
+  Rgb beta{1.0f};        // throughput
+  Rgb L{0.0f};           // radiance gathered [W/(m^2 sr)]
+  Vec3 vertex{ray.o};    // where the direction was chosen
+  float pdf_dir =
+      kInfinity;  // density of that choice [1/sr]; infinite: light sampling cannot make it
+  float eta_squared = 1.0f;  // of refractions so far, which beta carries and roulette must not see
+  int depth = 0;             // scattering events
+  int segments = 0;          // flights, through index-matched boundaries too
+  CameraSample first{};      // albedo and depth of the first event
+  float t_first = 0.0f;      // length of the flights before it [unit]
+};
+
+PathIntegrator::PathIntegrator(const Scene& scene, const Camera& camera,
+                               const PathSettings& settings)
+    : scene_(scene), camera_(camera), settings_(settings), camera_medium_(scene, camera) {}
+
+CameraSample PathIntegrator::sample(const Vec2& film, Sampler& sampler) const {
+  const CameraRay camera_ray = camera_.ray(film, sampler.next_2d());
+  const Medium* medium = camera_medium_.at(camera_ray.ray.o);
+  Path path{.ray = camera_ray.ray, .t_max = camera_ray.t_max, .medium = medium};
+
+  for (bool alive = true; alive; ++path.segments) {
+    const auto hit = scene_.intersect(path.ray, path.t_max);
+    if (path.medium != nullptr) {
+      const float t_end = hit ? hit->t : path.t_max;
+      const FreeFlight flight =
+          path.medium->sample_free_flight(path.ray, t_end, path.beta, sampler);
+      path.beta *= flight.weight;
+      if (is_black(path.beta)) break;
+      if (flight.scattered) {
+        alive = scatter_in_medium(path, flight, sampler) && survives_roulette(path, sampler);
+        continue;
+      }
+    }
+    if (!hit) {
+      add_environment(path);
+      break;
+    }
+    alive = interact_with_surface(path, *hit, sampler) && survives_roulette(path, sampler);
+  }
+
+  CameraSample result = path.first;
+  result.L = path.L;
+  result.alpha =
+      1.0f - mean(scene_.transmittance(camera_ray.ray, camera_ray.t_max, medium, sampler.rng()));
+  return result;
+}
+
+bool PathIntegrator::may_scatter(const Path& path) const {
+  return settings_.max_depth < 0 || path.depth + 1 < settings_.max_depth;
+}
+
+bool PathIntegrator::scatter_in_medium(Path& path, const FreeFlight& flight,
+                                       Sampler& sampler) const {
+  if (path.depth == 0 && path.first.depth == 0.0f) {
+    path.first.depth = path.t_first + flight.t;
+    path.first.albedo = glm::min(flight.weight, Rgb{1.0f});
+  }
+  if (!may_scatter(path)) return false;
+  ++path.depth;
+  const Vec3 p = path.ray.at(flight.t);
+  const Vec3 d = path.ray.d;
+
+  const float u_light = sampler.next_1d();
+  const Vec2 u_target = sampler.next_2d();
+  if (!flight.phase.is_delta()) {
+    if (const auto light = scene_.lights().sample(p, u_light, u_target)) {
+      const float value = flight.phase.eval(d, light->d);
+      const Rgb T =
+          scene_.transmittance({p, light->d}, light->distance, path.medium, sampler.rng());
+      path.L += path.beta * T * light->weight * (value * power_heuristic(light->pdf, value));
+    }
+  }
+
+  const PhaseSample next = flight.phase.sample(d, sampler.next_2d());
+  path.ray = {p, next.d};
+  path.t_max = kInfinity;
+  path.vertex = p;
+  path.pdf_dir = next.pdf;
+  return true;
+}
+
+bool PathIntegrator::interact_with_surface(Path& path, const Hit& hit, Sampler& sampler) const {
+  add_emission(path, hit);
+
+  const Bsdf& bsdf = scene_.bsdf(hit);
+  const Frame frame(hit.n_shading, hit.dp_du);
+  const Vec3 wo = frame.to_local(-path.ray.d);
+  const auto same_side = [&](const Vec3& local, const Vec3& world) {
+    return local.z * glm::dot(world, hit.n) > 0.0f;  // light must not leak through shading normals
+  };
+
+  const float u_light = sampler.next_1d();
+  const Vec2 u_target = sampler.next_2d();
+  if (bsdf.has_smooth_lobe() && may_scatter(path)) {
+    if (const auto light = scene_.lights().sample(hit.p, u_light, u_target)) {
+      const Vec3 wi = frame.to_local(light->d);
+      const Rgb value = bsdf.eval(wo, wi, hit.uv);
+      if (!is_black(value) && same_side(wi, light->d)) {
+        const float weight = power_heuristic(light->pdf, bsdf.pdf(wo, wi, hit.uv));
+        const Rgb T = scene_.transmittance(
+            hit.leave(light->d), light->distance,
+            scene_.medium_toward(hit, -path.ray.d, light->d, path.medium), sampler.rng());
+        path.L += path.beta * value * T * light->weight * weight;
+      }
+    }
+  }
+
+  const float u_lobe = sampler.next_1d();
+  const auto next = bsdf.sample(wo, hit.uv, u_lobe, sampler.next_2d());
+  if (!next || is_black(next->weight)) return false;
+
+  if (next->straight) {
+    path.beta *= next->weight;
+    path.medium = scene_.medium_across(hit, path.ray.d, path.medium);
+    path.ray = hit.leave(path.ray.d);
+    path.t_max -= hit.t;
+    path.t_first += hit.t;
+    return true;
+  }
+
+  if (path.first.depth == 0.0f) {
+    path.first.depth = path.t_first + hit.t;
+    path.first.albedo = bsdf.albedo(hit.uv);
+  }
+  if (!may_scatter(path)) return false;
+  ++path.depth;
+  const Vec3 d = frame.to_world(next->wi);
+  if (!same_side(next->wi, d)) return false;
+  path.beta *= next->weight;
+  path.medium = scene_.medium_toward(hit, -path.ray.d, d, path.medium);
+  path.ray = hit.leave(d);
+  path.t_max = kInfinity;
+  path.vertex = hit.p;
+  path.pdf_dir = next->pdf;
+  path.eta_squared *= next->eta * next->eta;
+  return true;
+}
+
+void PathIntegrator::add_emission(Path& path, const Hit& hit) const {
+  if (path.depth == 0 && settings_.hide_emitters) return;
+  if (const auto emission = scene_.emission(path.vertex, hit, path.ray.d))
+    path.L += path.beta * emission->L * power_heuristic(path.pdf_dir, emission->pdf);
+}
+
+void PathIntegrator::add_environment(Path& path) const {
+  if (path.depth == 0 && settings_.hide_emitters) return;
+  const float pdf_light = scene_.lights().environment_pdf(path.vertex, path.ray.d);
+  path.L += path.beta * scene_.lights().environment_radiance(path.ray.d) *
+            power_heuristic(path.pdf_dir, pdf_light);
+}
+
+bool PathIntegrator::survives_roulette(Path& path, Sampler& sampler) const {
+  if (path.depth < settings_.rr_depth && path.segments < kLongPath) return true;
+  float p_survive = std::min(max_component(path.beta) * path.eta_squared, 1.0f);
+  // A path that loses nothing would never end in a medium without a way out.
+  if (path.segments >= kLongPath) p_survive = std::min(p_survive, 0.999f);
+  if (!(sampler.next_1d() < p_survive)) return false;
+  path.beta /= p_survive;
+  return true;
+}
+
+}  // namespace brume

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "camera/camera.h"
+#include "core/sampler.h"
+#include "integrator/camera_medium.h"
+#include "integrator/camera_sample.h"
+#include "scene/scene.h"
+
+namespace brume {
+
+/// Unbiased volumetric path tracing with next-event estimation and multiple importance sampling
+/// at surfaces and in media, and Russian roulette. Index-matched boundaries are crossed by paths
+/// and shadow rays alike.
+class PathIntegrator {
+ public:
+  /// `scene` and `camera` must outlive the integrator.
+  PathIntegrator(const Scene& scene, const Camera& camera, const PathSettings& settings);
+
+  /// One sample of the light that reaches the camera at `film` in [0, 1]^2, from the top left.
+  CameraSample sample(const Vec2& film, Sampler& sampler) const;
+
+ private:
+  struct Path;
+
+  // Each returns whether the path goes on.
+  bool scatter_in_medium(Path& path, const FreeFlight& flight, Sampler& sampler) const;
+  bool interact_with_surface(Path& path, const Hit& hit, Sampler& sampler) const;
+  bool survives_roulette(Path& path, Sampler& sampler) const;
+
+  bool may_scatter(const Path& path) const;
+  void add_emission(Path& path, const Hit& hit) const;
+  void add_environment(Path& path) const;
+
+  const Scene& scene_;
+  const Camera& camera_;
+  PathSettings settings_;
+  CameraMedium camera_medium_;
+};
+
+}  // namespace brume

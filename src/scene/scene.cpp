@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/scene.h"
+
+#include <cmath>
+
+namespace brume {
+namespace {
+
+/// Where no medium is declared, the one that fills space stands outside; a closed shape keeps it
+/// out of its inside.
+void place_in_world(Surface& surface, const std::shared_ptr<const Medium>& world_medium) {
+  if (world_medium == nullptr) return;
+  if (surface.shape->is_closed()) surface.is_boundary = true;
+  if (surface.is_boundary && surface.exterior == nullptr) surface.exterior = world_medium;
+}
+
+std::vector<std::shared_ptr<const Shape>> shapes_of(const std::vector<Surface>& surfaces) {
+  std::vector<std::shared_ptr<const Shape>> shapes;
+  for (const Surface& surface : surfaces) shapes.push_back(surface.shape);
+  return shapes;
+}
+
+}  // namespace
+
+Scene::Scene(SceneParts parts)
+    : surfaces_(std::move(parts.surfaces)),
+      world_medium_(std::move(parts.world_medium)),
+      light_of_surface_(surfaces_.size(), -1) {
+  for (Surface& surface : surfaces_) place_in_world(surface, world_medium_);
+  if (!surfaces_.empty()) queries_.emplace(shapes_of(surfaces_));
+
+  for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+    const Surface& surface = surfaces_[i];
+    if (!surface.radiance || is_black(*surface.radiance)) continue;
+    light_of_surface_[i] =
+        int(lights_.add(std::make_shared<AreaLight>(surface.shape, *surface.radiance)));
+  }
+  for (auto& light : parts.lights) lights_.add(std::move(light));
+  for (auto& environment : parts.environments) lights_.add(std::move(environment));
+}
+
+std::optional<Hit> Scene::intersect(const Ray& ray, float t_max) const {
+  return queries_ ? queries_->intersect(ray, t_max) : std::nullopt;
+}
+
+const Medium* Scene::medium_across(const Hit& hit, const Vec3& d, const Medium* medium) const {
+  const Surface& surface = surfaces_[hit.shape];
+  if (!surface.is_boundary) return medium;
+  return (glm::dot(d, hit.n) < 0.0f ? surface.interior : surface.exterior).get();
+}
+
+Scene::MediumAt Scene::medium_at(const Vec3& p) const {
+  // Rays aimed at every boundary: the first boundary that each meets says what is on this side.
+  struct Vote {
+    const Medium* medium;
+    int count;
+  };
+  std::vector<Vote> votes;
+  constexpr int kRaysPerBoundary = 16;
+  for (const Surface& target : surfaces_) {
+    if (!target.is_boundary) continue;
+    for (int i = 0; i < kRaysPerBoundary; ++i) {
+      const Vec2 u((float(i) + 0.5f) / kRaysPerBoundary,
+                   std::fmod(0.5f + float(i) * 0.618034f, 1.0f));
+      const auto aim = target.shape->sample_toward(p, u);
+      if (!aim || aim->p == p) continue;
+      Ray ray{.o = p, .d = glm::normalize(aim->p - p)};
+      auto hit = intersect(ray, kInfinity);
+      while (hit && !surfaces_[hit->shape].is_boundary) {
+        ray = hit->leave(ray.d);
+        hit = intersect(ray, kInfinity);
+      }
+      if (!hit) continue;
+      const Medium* medium = medium_across(*hit, -ray.d, nullptr);
+      const auto same = std::find_if(votes.begin(), votes.end(),
+                                     [&](const Vote& v) { return v.medium == medium; });
+      if (same == votes.end())
+        votes.push_back({medium, 1});
+      else
+        ++same->count;
+    }
+  }
+  if (votes.empty()) return {world_medium_.get(), true};
+  const auto most = std::max_element(
+      votes.begin(), votes.end(), [](const Vote& a, const Vote& b) { return a.count < b.count; });
+  return {most->medium, votes.size() == 1};
+}
+
+const Medium* Scene::medium_beside(const Vec3& from, const Medium* medium, const Vec3& to) const {
+  if (from == to) return medium;
+  const Vec3 d = glm::normalize(to - from);
+  Ray ray{.o = from, .d = d};
+  float distance = glm::distance(from, to);
+  while (const auto hit = intersect(ray, distance)) {
+    medium = medium_across(*hit, d, medium);
+    ray = hit->leave(d);
+    distance -= hit->t;
+  }
+  return medium;
+}
+
+Rgb Scene::transmittance(const Ray& ray, float distance, const Medium* medium, Rng& rng) const {
+  Rgb T{1.0f};
+  Ray segment = ray;
+  while (true) {
+    const auto hit = intersect(segment, distance);
+    Rgb passing{1.0f};
+    if (hit) {
+      const Frame frame(hit->n_shading, hit->dp_du);
+      passing = bsdf(*hit).straight_transmittance(frame.to_local(-segment.d), hit->uv);
+      if (is_black(passing)) return passing;
+    }
+    if (medium != nullptr) T *= medium->transmittance(segment, hit ? hit->t : distance, rng);
+    if (!hit || is_black(T)) return T;
+    T *= passing;
+    medium = medium_across(*hit, segment.d, medium);
+    segment = hit->leave(segment.d);
+    distance -= hit->t;
+  }
+}
+
+std::optional<Scene::Emission> Scene::emission(const Vec3& from, const Hit& hit,
+                                               const Vec3& d) const {
+  const int light = light_of_surface_[hit.shape];
+  if (light < 0) return std::nullopt;
+  const AreaLight& area_light = lights_.area_light(light);
+  return Emission{.L = area_light.radiance(hit, d),
+                  .pdf = lights_.probability(from, light) * area_light.pdf(from, hit)};
+}
+
+}  // namespace brume

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "medium/heterogeneous_medium.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "medium/majorant_check.h"
+#include "support/grids.h"
+#include "support/statistics.h"
+
+namespace brume {
+namespace {
+
+struct FieldCase {
+  const char* name;
+  glm::ivec3 n;
+  std::function<float(int, int, int)> density;
+};
+
+const std::vector<FieldCase>& fields() {
+  static const std::vector<FieldCase> cases = {
+      {"constant", {9, 9, 9}, [](int, int, int) { return 2.0f; }},
+      {"ramp", {16, 8, 8}, [](int x, int, int) { return 0.25f * float(x); }},
+      {"checkerboard",
+       {12, 12, 12},
+       [](int x, int y, int z) { return (x + y + z) % 2 ? 6.0f : 0.0f; }},
+      {"blocks",
+       {16, 16, 16},
+       [](int x, int y, int z) { return (x / 4 + y / 4 + z / 4) % 2 ? 8.0f : 0.0f; }},
+      {"one voxel", {1, 1, 1}, [](int, int, int) { return 3.0f; }},
+      {"lonely voxel",
+       {11, 11, 11},
+       [](int x, int y, int z) { return x == 5 && y == 5 && z == 5 ? 40.0f : 0.0f; }},
+  };
+  return cases;
+}
+
+glm::dmat4 skewed_transform() {
+  glm::dmat4 m = glm::translate(glm::dmat4(1.0), glm::dvec3(3.0, -2.0, 1.0));
+  m = glm::rotate(m, 0.7, glm::normalize(glm::dvec3(1.0, 2.0, -0.5)));
+  return glm::scale(m, glm::dvec3(2.0, -0.7, 1.3));
+}
+
+/// Optical thickness by the midpoint rule, in double.
+double quadrature(const Grid<float>& grid, const Ray& ray, float t_max) {
+  GridLookup<float> lookup(grid);
+  const int n = 20000;
+  double tau = 0.0;
+  for (int i = 0; i < n; ++i) {
+    const double t = (i + 0.5) / n * t_max;
+    const Vec3 p(grid.index_from_world() *
+                 glm::dvec4(glm::dvec3(ray.o) + t * glm::dvec3(ray.d), 1.0));
+    if (grid.box().contains(p)) tau += lookup.trilinear(p) * t_max / n;
+  }
+  return tau;
+}
+
+class HeterogeneousLaw : public ::testing::TestWithParam<std::tuple<int, bool>> {};
+
+TEST_P(HeterogeneousLaw, TransmittanceAndFlightsFollowTheOpticalThickness) {
+  const auto [index, transformed] = GetParam();
+  const FieldCase& field = fields()[index];
+  SCOPED_TRACE(field.name);
+  const glm::dmat4 to_world = transformed ? skewed_transform() : glm::dmat4(1.0);
+  const auto grid = test::make_grid(field.n, field.density, to_world);
+  const float scale = 0.8f;
+  const auto medium = make_heterogeneous_medium(
+      grid, scale, std::make_shared<ConstantField>(Rgb(0.5f, 0.7f, 0.9f)), {0.3f});
+
+  const Vec3 centre(to_world * glm::dvec4(0.5, 0.5, 0.5, 1.0));
+  for (const Vec3& direction : {Vec3(1, 0, 0), Vec3(-0.3f, 0.8f, 0.4f), Vec3(0.1f, -0.2f, -1.0f)}) {
+    const Vec3 d = glm::normalize(direction);
+    const Ray ray{centre - 4.0f * d, d};
+    const float t_max = 4.3f;  // ends inside
+    const double T = std::exp(-scale * quadrature(*grid, ray, t_max));
+    const double T_half = std::exp(-scale * quadrature(*grid, ray, 4.0f));
+    test::RunningMean estimate, passed, passed_half;
+    Rng rng(17);
+    for (int i = 0; i < 100000; ++i) {
+      estimate.add(medium->transmittance(ray, t_max, rng).r);
+      Sampler sampler(19, 0, i, true);
+      const FreeFlight flight = medium->sample_free_flight(ray, t_max, Rgb(1.0f), sampler);
+      passed.add(!flight.scattered);
+      passed_half.add(!flight.scattered || flight.t > 4.0f);
+      if (flight.scattered) {
+        ASSERT_EQ(flight.weight, Rgb(0.5f, 0.7f, 0.9f));
+      }
+    }
+    EXPECT_TRUE(test::agrees(estimate, T, 2e-5));
+    EXPECT_TRUE(test::agrees(passed, T, 2e-5));
+    EXPECT_TRUE(test::agrees(passed_half, T_half, 2e-5));
+  }
+#ifdef BRUME_COUNT_VIOLATIONS
+  EXPECT_EQ(majorant_violations(), 0u);
+#endif
+}
+
+INSTANTIATE_TEST_SUITE_P(Fields, HeterogeneousLaw,
+                         ::testing::Combine(::testing::Range(0, 6), ::testing::Bool()));
+
+TEST(HeterogeneousMedium, MissesWhatIsOutsideItsBox) {
+  const auto grid = test::make_grid({4, 4, 4}, [](int, int, int) { return 1e6f; });
+  const auto medium =
+      make_heterogeneous_medium(grid, 1.0f, std::make_shared<ConstantField>(Rgb(1.0f)), {});
+  Rng rng(1);
+  Sampler sampler(1, 0, 0);
+  EXPECT_EQ(medium->transmittance({{-1, 2, 0.5f}, {1, 0, 0}}, kInfinity, rng), Rgb(1.0f));
+  EXPECT_EQ(medium->transmittance({{-1, 0.5f, 0.5f}, {1, 0, 0}}, 0.99f, rng), Rgb(1.0f));
+  const FreeFlight flight =
+      medium->sample_free_flight({{-1, 0.5f, 0.5f}, {1, 0, 0}}, kInfinity, Rgb(1.0f), sampler);
+  EXPECT_TRUE(flight.scattered);
+  EXPECT_NEAR(flight.t, 1.0f, 1e-4f);
+}
+
+/// Grid whose extinction differs by channel; unit cube of `n`^3 constant voxels.
+std::shared_ptr<const Grid<Rgb>> colored_cube(int n, const Rgb& value) {
+  nanovdb::GridBuilder<nanovdb::Vec3f> builder(nanovdb::Vec3f(0.0f));
+  auto accessor = builder.getAccessor();
+  for (int z = -1; z <= n; ++z)
+    for (int y = -1; y <= n; ++y)
+      for (int x = -1; x <= n; ++x)
+        accessor.setValue(nanovdb::Coord(x, y, z), nanovdb::Vec3f(value.r, value.g, value.b));
+  glm::dmat4 m = glm::scale(glm::dmat4(1.0), glm::dvec3(1.0 / n));
+  m = glm::translate(m, glm::dvec3(0.5));
+  return std::make_shared<const Grid<Rgb>>(builder.getHandle<>(), m,
+                                           Box3{Vec3(-0.5f), Vec3(float(n) - 0.5f)},
+                                           Interpolation::kTrilinear, Wrap::kClamp);
+}
+
+TEST(HeterogeneousMedium, ColoredExtinctionIsUnbiasedInEveryChannel) {
+  const Rgb sigma_t(0.3f, 1.0f, 3.0f);
+  const auto medium = make_heterogeneous_medium(
+      colored_cube(5, sigma_t), 1.0f, std::make_shared<ConstantField>(Rgb(1.0f, 0.8f, 0.6f)), {});
+  const Ray ray{{-1, 0.5f, 0.5f}, {1, 0, 0}};
+  test::RunningMean T[3], scattered[3];
+  Rng rng(23);
+  const Rgb beta(1.0f, 0.2f, 0.7f);
+  for (int i = 0; i < 200000; ++i) {
+    const Rgb estimate = medium->transmittance(ray, kInfinity, rng);
+    Sampler sampler(29, 0, i, true);
+    const FreeFlight flight = medium->sample_free_flight(ray, kInfinity, beta, sampler);
+    for (int k = 0; k < 3; ++k) {
+      T[k].add(estimate[k]);
+      scattered[k].add(flight.scattered ? flight.weight[k] : 0.0f);
+      ASSERT_LE(beta[k] * flight.weight[k], 1.9001f);  // never above the sum of beta
+    }
+  }
+  const Rgb albedo(1.0f, 0.8f, 0.6f);
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_TRUE(test::agrees(T[k], std::exp(-double(sigma_t[k])), 1e-6));
+    EXPECT_TRUE(
+        test::agrees(scattered[k], albedo[k] * (1.0 - std::exp(-double(sigma_t[k]))), 1e-6));
+  }
+}
+
+}  // namespace
+}  // namespace brume
