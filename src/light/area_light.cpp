@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "light/area_light.h"
+
+#include <cassert>
+#include <utility>
+
+#include "light/toward.h"
+
+namespace brume {
+
+AreaLight::AreaLight(std::shared_ptr<const Shape> shape, const Rgb& radiance)
+    : shape_(std::move(shape)), radiance_(radiance) {
+  assert(shape_ != nullptr);
+}
+
+std::optional<LightSample> AreaLight::sample(const Vec3& p, const Vec2& u) const {
+  const std::optional<ShapeSample> s = shape_->sample_toward(p, u);
+  if (!s) return std::nullopt;
+
+  // The end of the shadow ray is o + distance d. Rounding both factors to float moves it across
+  // the surface by up to (sqrt(3) + 1) 2^-24 distance, which comes on top of the error of s.p.
+  constexpr double kRounding = 0x1p-22;
+  const glm::dvec3 from(p), n(s->n), on_surface(s->p);
+  const double gap = s->error + kRounding * glm::length(on_surface - from);
+  const glm::dvec3 target = on_surface + gap * n;
+  if (!(glm::dot(from - target, n) > 0.0)) return std::nullopt;
+
+  const Toward toward(from, target);
+  return LightSample{.d = toward.d,
+                     .distance = static_cast<float>(toward.distance),
+                     .weight = radiance_ / s->pdf,
+                     .pdf = s->pdf};
+}
+
+}  // namespace brume

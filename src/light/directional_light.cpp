@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "light/directional_light.h"
+
+namespace brume {
+
+DirectionalLight::DirectionalLight(const Vec3& direction, const Rgb& irradiance)
+    : to_light_(-glm::normalize(direction)), irradiance_(irradiance) {}
+
+std::optional<LightSample> DirectionalLight::sample(const Vec3& /*p*/, const Vec2& /*u*/) const {
+  return LightSample{
+      .d = to_light_, .distance = kInfinity, .weight = irradiance_, .pdf = kInfinity};
+}
+
+}  // namespace brume

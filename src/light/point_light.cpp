@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "light/point_light.h"
+
+#include "light/toward.h"
+
+namespace brume {
+
+std::optional<LightSample> PointLight::sample(const Vec3& p, const Vec2& /*u*/) const {
+  const Toward toward(p, position_);
+  if (!(toward.distance > 0.0)) return std::nullopt;
+  return LightSample{.d = toward.d,
+                     .distance = static_cast<float>(toward.distance),
+                     .weight = intensity_ * toward.inverse_square(),
+                     .pdf = kInfinity};
+}
+
+}  // namespace brume

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "light/light.h"
+
+namespace brume {
+
+/// Emits the same in every direction from one point.
+class PointLight final : public Light {
+ public:
+  /// `intensity` [W/sr].
+  PointLight(const Vec3& position, const Rgb& intensity)
+      : position_(position), intensity_(intensity) {}
+
+  std::optional<LightSample> sample(const Vec3& p, const Vec2& u) const override;
+
+ private:
+  Vec3 position_;  // [unit]
+  Rgb intensity_;  // [W/sr]
+};
+
+}  // namespace brume

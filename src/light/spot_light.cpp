@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "light/spot_light.h"
+
+#include <cassert>
+#include <cmath>
+
+#include "light/toward.h"
+
+namespace brume {
+
+SpotLight::SpotLight(const glm::dmat4& to_world, const Rgb& intensity, float cutoff_angle,
+                     float beam_width)
+    : position_(to_world[3]),
+      to_local_(glm::inverse(glm::dmat3(to_world))),
+      intensity_(intensity),
+      cutoff_angle_(cutoff_angle),
+      beam_width_(beam_width) {
+  assert(0.0f <= beam_width && beam_width <= cutoff_angle && cutoff_angle <= kPi);
+}
+
+/// Fraction of the intensity emitted along the direction of travel `d`.
+float SpotLight::falloff(const Vec3& d) const {
+  const Vec3 local = to_local_ * d;
+  // acos() of a cosine near 1 would lose the angle of a narrow beam.
+  const float angle = std::atan2(std::hypot(local.x, local.y), local.z);
+  if (angle <= beam_width_) return 1.0f;
+  if (angle >= cutoff_angle_) return 0.0f;
+  return (cutoff_angle_ - angle) / (cutoff_angle_ - beam_width_);
+}
+
+std::optional<LightSample> SpotLight::sample(const Vec3& p, const Vec2& /*u*/) const {
+  const Toward toward(p, position_);
+  if (!(toward.distance > 0.0)) return std::nullopt;
+  const float fraction = falloff(-toward.d);
+  if (fraction == 0.0f) return std::nullopt;
+  return LightSample{.d = toward.d,
+                     .distance = static_cast<float>(toward.distance),
+                     .weight = intensity_ * (fraction * toward.inverse_square()),
+                     .pdf = kInfinity};
+}
+
+}  // namespace brume
