@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "film/atomic_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+
+#include "core/error.h"
+
+namespace brume {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const std::string& path, const std::string& reason) {
+  throw Error(fmt::format("{}: cannot be written: {}", path, reason), ErrorKind::kEnvironment);
+}
+
+std::string reason_of(int error_number) {
+  return std::generic_category().message(error_number);
+}
+
+/// The file that is replaced: a link stays a link, what it points to is written.
+fs::path resolve(const fs::path& path) {
+  std::error_code ignored, dangling;
+  const fs::path pointed_to = fs::canonical(path, dangling);
+  return fs::is_symlink(path, ignored) && !dangling ? pointed_to : path;
+}
+
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+/// A file that disappears unless it is renamed.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const fs::path& path)
+      : path_(path),
+        descriptor_(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {}
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!path_.empty()) ::unlink(path_.c_str());
+  }
+
+  bool is_open() const { return descriptor_ >= 0; }
+
+  /// False, with errno set, when not all of `bytes` reached the disk.
+  bool write(std::span<const unsigned char> bytes) {
+    while (!bytes.empty()) {
+      const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) return false;
+      bytes = bytes.subspan(std::size_t(count));
+    }
+    if (::fsync(descriptor_) != 0) return false;
+    const int descriptor = descriptor_;
+    descriptor_ = -1;
+    return ::close(descriptor) == 0;
+  }
+
+  /// False, with errno set, when the file could not be moved.
+  bool rename_to(const fs::path& target) {
+    if (std::rename(path_.c_str(), target.c_str()) != 0) return false;
+    path_.clear();
+    return true;
+  }
+
+ private:
+  fs::path path_;
+  int descriptor_;
+};
+
+}  // namespace
+
+void check_writable(const std::string& path) {
+  const fs::path target = resolve(path);
+  const fs::path folder = folder_of(target);
+  std::error_code ignored;
+  if (!fs::exists(folder, ignored))
+    fail(path, fmt::format("there is no folder {}", folder.string()));
+  if (!fs::is_directory(folder, ignored))
+    fail(path, fmt::format("{} is not a folder", folder.string()));
+  if (fs::is_directory(target, ignored)) fail(path, "it is a folder");
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    fail(path, fmt::format("folder {}: {}", folder.string(), reason_of(errno)));
+}
+
+void write_file_atomically(const std::string& path, std::span<const unsigned char> bytes) {
+  check_writable(path);
+  const fs::path target = resolve(path);
+  TemporaryFile file(folder_of(target) /
+                     fmt::format(".{}.{}.partial", target.filename().string(), ::getpid()));
+  if (!file.is_open() || !file.write(bytes) || !file.rename_to(target))
+    fail(path, reason_of(errno));
+}
+
+}  // namespace brume

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "film/film.h"
+
+#include "core/sampler.h"
+
+namespace brume {
+namespace {
+
+/// Fewer replications say too little about their own spread.
+constexpr std::uint32_t kMinReplications = 4;
+
+/// A chromatic estimate of opacity may lie outside [0, 1]; only its mean may not.
+bool is_good(const CameraSample& sample) {
+  return is_finite_and_non_negative(sample.L) && std::isfinite(sample.alpha) &&
+         is_finite_and_non_negative(sample.albedo) && sample.depth >= 0.0f;
+}
+
+void lower_to(std::atomic<std::size_t>& value, std::size_t candidate) {
+  std::size_t current = value.load(std::memory_order_relaxed);
+  while (candidate < current &&
+         !value.compare_exchange_weak(current, candidate, std::memory_order_relaxed)) {
+  }
+}
+
+}  // namespace
+
+Film::Film(std::uint32_t width, std::uint32_t height, FilmLayers layers)
+    : width_(width), height_(height), pixels_(std::size_t(width) * height) {
+  if (layers.albedo) albedo_.assign(pixels_.size(), glm::dvec3(0.0));
+  if (layers.depth) depth_.resize(pixels_.size());
+}
+
+void Film::add(std::uint32_t x, std::uint32_t y, const CameraSample& sample) {
+  const std::size_t i = index(x, y);
+  Pixel& pixel = pixels_[i];
+  if (is_good(sample)) {
+    // Welford 1962: no cancellation, however small the spread is beside the mean.
+    const glm::dvec3 L(sample.L);
+    const double n = pixel.samples;
+    if (pixel.samples > 0) {
+      const glm::dvec3 deviation = L - pixel.sum / n;
+      pixel.squares += deviation * deviation * (n / (n + 1.0));
+    }
+    pixel.sum += L;
+    pixel.alpha_sum += sample.alpha;
+    pixel.samples += 1;
+    if (!albedo_.empty()) albedo_[i] += glm::dvec3(sample.albedo);
+    if (!depth_.empty() && sample.depth < kInfinity) {
+      depth_[i].sum += sample.depth;
+      depth_[i].samples += 1;
+    }
+  } else {
+    bad_count_.fetch_add(1, std::memory_order_relaxed);
+    lower_to(first_bad_, i);
+    pixel.replication_spoiled = true;
+  }
+  pixel.in_replication += 1;
+  if (pixel.in_replication == Sampler::kReplication) close_replication(pixel);
+}
+
+void Film::close_replication(Pixel& pixel) {
+  if (!pixel.replication_spoiled) {
+    const double n = pixel.replications;
+    if (pixel.replications > 0) {
+      const glm::dvec3 mean_before =
+          pixel.sum_before / double(pixel.samples - Sampler::kReplication);
+      const glm::dvec3 mean = (pixel.sum - pixel.sum_before) / double(Sampler::kReplication);
+      const glm::dvec3 deviation = mean - mean_before;
+      pixel.replication_squares += deviation * deviation * (n / (n + 1.0));
+    }
+    pixel.replications += 1;
+  }
+  pixel.sum_before = pixel.sum;
+  pixel.in_replication = 0;
+  pixel.replication_spoiled = false;
+}
+
+Rgb Film::mean(std::uint32_t x, std::uint32_t y) const {
+  const Pixel& pixel = at(x, y);
+  return pixel.samples == 0 ? Rgb{0.0f} : Rgb(pixel.sum / double(pixel.samples));
+}
+
+float Film::alpha(std::uint32_t x, std::uint32_t y) const {
+  const Pixel& pixel = at(x, y);
+  return pixel.samples == 0 ? 0.0f : static_cast<float>(pixel.alpha_sum / pixel.samples);
+}
+
+Rgb Film::standard_error(std::uint32_t x, std::uint32_t y) const {
+  const Pixel& pixel = at(x, y);
+  if (pixel.samples < 2) return Rgb{kInfinity};
+  const double n = pixel.samples;
+  const glm::dvec3 sample_variance = pixel.squares / (n - 1.0);
+  if (pixel.replications < kMinReplications) return Rgb(glm::sqrt(sample_variance / n));
+
+  // Variances of independent sums add: those of whole replications, and the samples beyond them.
+  const double replications = pixel.replications;
+  const double size = Sampler::kReplication;
+  const double loose = n - size * replications;
+  const glm::dvec3 replication_variance = pixel.replication_squares / (replications - 1.0);
+  return Rgb(
+      glm::sqrt(size * size * replications * replication_variance + loose * sample_variance) / n);
+}
+
+Rgb Film::albedo(std::uint32_t x, std::uint32_t y) const {
+  const Pixel& pixel = at(x, y);
+  return pixel.samples == 0 ? Rgb{0.0f} : Rgb(albedo_[index(x, y)] / double(pixel.samples));
+}
+
+float Film::depth(std::uint32_t x, std::uint32_t y) const {
+  const Depth& depth = depth_[index(x, y)];
+  return depth.samples == 0 ? kInfinity : static_cast<float>(depth.sum / depth.samples);
+}
+
+std::optional<BadSamples> Film::bad_samples() const {
+  if (bad_count_ == 0) return std::nullopt;
+  return BadSamples{.count = bad_count_,
+                    .x = static_cast<std::uint32_t>(first_bad_ % width_),
+                    .y = static_cast<std::uint32_t>(first_bad_ / width_)};
+}
+
+}  // namespace brume
