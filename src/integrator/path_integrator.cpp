@@ -71,7 +71,7 @@ bool PathIntegrator::may_scatter(const Path& path) const {
 
 bool PathIntegrator::scatter_in_medium(Path& path, const FreeFlight& flight,
                                        Sampler& sampler) const {
-  if (path.depth == 0 && path.first.depth == 0.0f) {
+  if (!std::isfinite(path.first.depth)) {
     path.first.depth = path.t_first + flight.t;
     path.first.albedo = glm::min(flight.weight, Rgb{1.0f});
   }
@@ -138,7 +138,7 @@ bool PathIntegrator::interact_with_surface(Path& path, const Hit& hit, Sampler& 
     return true;
   }
 
-  if (path.first.depth == 0.0f) {
+  if (!std::isfinite(path.first.depth)) {
     path.first.depth = path.t_first + hit.t;
     path.first.albedo = bsdf.albedo(hit.uv);
   }

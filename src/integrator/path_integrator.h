@@ -3,8 +3,9 @@
 
 #include "camera/camera.h"
 #include "core/sampler.h"
+#include "film/camera_sample.h"
 #include "integrator/camera_medium.h"
-#include "integrator/camera_sample.h"
+#include "integrator/path_settings.h"
 #include "scene/scene.h"
 
 namespace brume {

@@ -4,7 +4,7 @@
 #include "camera/camera.h"
 #include "core/sampler.h"
 #include "integrator/camera_medium.h"
-#include "integrator/camera_sample.h"
+#include "integrator/path_settings.h"
 #include "scene/scene.h"
 
 namespace brume {

@@ -20,23 +20,38 @@ std::vector<std::shared_ptr<const Shape>> shapes_of(const std::vector<Surface>& 
   return shapes;
 }
 
+/// Lights of all surfaces, which come first in the set of lights, then the others.
+std::vector<std::shared_ptr<const Light>> joined(
+    const std::vector<std::shared_ptr<const AreaLight>>& area_lights,
+    const std::vector<std::shared_ptr<const Light>>& others) {
+  std::vector<std::shared_ptr<const Light>> lights;
+  for (const auto& light : area_lights)
+    if (light) lights.push_back(light);
+  lights.insert(lights.end(), others.begin(), others.end());
+  return lights;
+}
+
+std::vector<std::shared_ptr<const AreaLight>> area_lights_of(const std::vector<Surface>& surfaces) {
+  std::vector<std::shared_ptr<const AreaLight>> lights;
+  for (const Surface& surface : surfaces)
+    lights.push_back(surface.radiance && !is_black(*surface.radiance)
+                         ? std::make_shared<const AreaLight>(surface.shape, *surface.radiance)
+                         : nullptr);
+  return lights;
+}
+
 }  // namespace
 
 Scene::Scene(SceneParts parts)
     : surfaces_(std::move(parts.surfaces)),
       world_medium_(std::move(parts.world_medium)),
-      light_of_surface_(surfaces_.size(), -1) {
+      area_lights_(area_lights_of(surfaces_)),
+      lights_(joined(area_lights_, parts.lights), std::move(parts.environments)) {
   for (Surface& surface : surfaces_) place_in_world(surface, world_medium_);
   if (!surfaces_.empty()) queries_.emplace(shapes_of(surfaces_));
 
-  for (std::size_t i = 0; i < surfaces_.size(); ++i) {
-    const Surface& surface = surfaces_[i];
-    if (!surface.radiance || is_black(*surface.radiance)) continue;
-    light_of_surface_[i] =
-        int(lights_.add(std::make_shared<AreaLight>(surface.shape, *surface.radiance)));
-  }
-  for (auto& light : parts.lights) lights_.add(std::move(light));
-  for (auto& environment : parts.environments) lights_.add(std::move(environment));
+  std::size_t index = 0;
+  for (const auto& light : area_lights_) light_index_.push_back(light ? index++ : 0);
 }
 
 std::optional<Hit> Scene::intersect(const Ray& ray, float t_max) const {
@@ -121,11 +136,13 @@ Rgb Scene::transmittance(const Ray& ray, float distance, const Medium* medium, R
 
 std::optional<Scene::Emission> Scene::emission(const Vec3& from, const Hit& hit,
                                                const Vec3& d) const {
-  const int light = light_of_surface_[hit.shape];
-  if (light < 0) return std::nullopt;
-  const AreaLight& area_light = lights_.area_light(light);
-  return Emission{.L = area_light.radiance(hit, d),
-                  .pdf = lights_.probability(from, light) * area_light.pdf(from, hit)};
+  const auto& light = area_lights_[hit.shape];
+  if (light == nullptr) return std::nullopt;
+  const Rgb L = light->radiance(hit, d);
+  if (is_black(L)) return std::nullopt;
+  return Emission{
+      .L = L,
+      .pdf = lights_.probability(from, light_index_[hit.shape]) * light->pdf(from, hit)};
 }
 
 }  // namespace brume

@@ -85,8 +85,9 @@ class Scene {
   std::vector<Surface> surfaces_;
   std::shared_ptr<const Medium> world_medium_;
   std::optional<RayQueries> queries_;
+  std::vector<std::shared_ptr<const AreaLight>> area_lights_;  // [surface], null: emits nothing
+  std::vector<std::size_t> light_index_;                       // [surface], in lights_
   LightSet lights_;
-  std::vector<int> light_of_surface_;  // index in lights_, or -1
 };
 
 }  // namespace brume
