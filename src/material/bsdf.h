@@ -9,10 +9,10 @@
 namespace brume {
 
 struct BsdfSample {
-  Vec3 wi;              // unit, away from the surface, local frame
-  Rgb weight;           // f |cos theta_i| / pdf
-  float pdf;            // [1/sr], of all lobes that can produce `wi`; infinite for a Dirac lobe
-  float eta = 1.0f;     // relative index of refraction from the side of `wo` to that of `wi`
+  Vec3 wi;                // unit, away from the surface, local frame
+  Rgb weight;             // f |cos theta_i| / pdf
+  float pdf;              // [1/sr], of all lobes that can produce `wi`; infinite for a Dirac lobe
+  float eta = 1.0f;       // relative index of refraction from the side of `wo` to that of `wi`
   bool straight = false;  // passed through as if nothing were there
 };
 
