@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "io/scene_node.h"
+
+namespace brume {
+
+/// Values for the scene's parameters ($name), from the command line.
+using Definitions = std::map<std::string, std::string>;
+
+/// A scene file and those that it includes as a graph of objects: parameters substituted,
+/// references resolved, names of the older dialect renamed.
+struct SceneDocument {
+  std::vector<std::unique_ptr<SceneNode>> nodes;
+  const SceneNode* root;  // the <scene>
+};
+
+/// Throws an Error with position for what is not a well-formed scene file; what its objects mean
+/// is not looked at.
+SceneDocument read_scene_document(const std::filesystem::path& path,
+                                  const Definitions& definitions);
+
+}  // namespace brume

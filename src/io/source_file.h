@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace brume {
+
+/// A text file as it was read, kept so that a message can show the line it speaks of.
+struct SourceFile {
+  std::filesystem::path path;  // as the person gave it, for messages
+  std::string text;            // UTF-8
+};
+
+/// Reads a file whole. Throws an input error that names the path when there is none to read.
+std::string read_whole_file(const std::filesystem::path& path);
+
+/// A place in a file, or nowhere in particular when `file` is empty.
+struct SourcePosition {
+  std::shared_ptr<const SourceFile> file;
+  std::size_t offset = 0;  // [bytes]
+
+  /// `path:line:column`, both counted from 1, columns in characters.
+  std::string to_string() const;
+};
+
+/// Throws an Error: the place and the message, then the line in question with a caret under the
+/// place.
+[[noreturn]] void fail_at(const SourcePosition& where, const std::string& message);
+
+}  // namespace brume
