@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/render.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstring>
+#include <mutex>
+#include <set>
+#include <thread>
+#include <vector>
+
+#include "core/sampler.h"
+#include "film/develop.h"
+#include "film/film.h"
+#include "render/interrupt.h"
+
+namespace brume {
+namespace {
+
+CameraSample noise(std::uint32_t x, std::uint32_t y, std::uint32_t index) {
+  Sampler sampler(1, y * 1000 + x, index);
+  const Vec2 u = sampler.next_2d();
+  return {.L = {u.x, u.y, 1.0f / (1e-3f + u.x)}, .alpha = sampler.next_1d(), .depth = u.y};
+}
+
+CameraSample slow(std::uint32_t x, std::uint32_t y, std::uint32_t index) {
+  std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  return noise(x, y, index);
+}
+
+std::vector<float> pixels_after(const RenderSettings& settings) {
+  Film film(61, 37, {.albedo = false, .depth = true});
+  render(noise, settings, film);
+  return develop(film).pixels;
+}
+
+TEST(Render, SameBitsForAnyNumberOfThreads) {
+  const std::vector<float> one = pixels_after({.spp = 77, .threads = 1});
+  for (const int threads : {2, 7}) {
+    const std::vector<float> many = pixels_after({.spp = 77, .threads = threads});
+    ASSERT_EQ(one.size(), many.size());
+    EXPECT_EQ(std::memcmp(one.data(), many.data(), one.size() * sizeof(float)), 0) << threads;
+  }
+}
+
+TEST(Render, EveryPixelGetsItsSamplesInOrder) {
+  for (const std::uint32_t spp : {1u, 3u, 16u, 100u}) {
+    Film film(20, 9);
+    std::vector<std::uint32_t> next(20 * 9, 0);
+    std::atomic<int> out_of_order = 0;
+    const RenderResult result = render(
+        [&](std::uint32_t x, std::uint32_t y, std::uint32_t index) {
+          if (next[y * 20 + x]++ != index) ++out_of_order;
+          return noise(x, y, index);
+        },
+        {.spp = spp, .threads = 4}, film);
+    EXPECT_EQ(out_of_order, 0);
+    EXPECT_EQ(next, std::vector<std::uint32_t>(20 * 9, spp));
+    EXPECT_EQ(result.reason, StopReason::kSampleCount);
+    EXPECT_EQ(result.min_spp, spp);
+    EXPECT_EQ(result.mean_spp, spp);
+  }
+}
+
+TEST(Render, PassesLeaveThePictureEven) {
+  // Between passes all pixels have the same count: seen from any pixel, no other is more than one
+  // pass ahead, and the first passes are short.
+  Film film(16, 16);
+  std::uint32_t furthest = 0;
+  const auto sample = [&](std::uint32_t x, std::uint32_t y, std::uint32_t index) {
+    furthest = std::max(furthest, index);
+    const std::uint32_t pass_end = index < 1   ? 1
+                                   : index < 2 ? 2
+                                   : index < 4 ? 4
+                                   : index < 8 ? 8
+                                               : 16;
+    EXPECT_LT(furthest, pass_end);
+    return noise(x, y, index);
+  };
+  render(sample, {.spp = 16, .threads = 1}, film);
+}
+
+TEST(Render, UsesAsManyThreadsAsAsked) {
+  Film film(64, 64);
+  std::mutex mutex;
+  std::set<std::thread::id> seen;
+  render(
+      [&](std::uint32_t x, std::uint32_t y, std::uint32_t index) {
+        std::this_thread::sleep_for(std::chrono::microseconds(200));
+        const std::lock_guard lock(mutex);
+        seen.insert(std::this_thread::get_id());
+        return noise(x, y, index);
+      },
+      {.spp = 1, .threads = 3}, film);
+  EXPECT_EQ(seen.size(), 3u);
+}
+
+TEST(Render, TimeLimitIsKeptInTheMiddleOfAPass) {
+  Film film(64, 64);  // a pass takes ten seconds
+  const RenderResult result = render(slow, {.seconds = 0.3, .threads = 2}, film);
+  EXPECT_EQ(result.reason, StopReason::kTimeLimit);
+  EXPECT_GE(result.seconds, 0.3);
+  EXPECT_LT(result.seconds, 1.3);
+  EXPECT_EQ(result.min_spp, 0u);
+  EXPECT_GT(result.mean_spp, 0.0);
+}
+
+TEST(Render, FirstStopRuleReachedEndsTheRender) {
+  Film film(8, 8);
+  EXPECT_EQ(render(noise, {.spp = 4, .seconds = 60.0}, film).reason, StopReason::kSampleCount);
+  Film other(8, 8);
+  const RenderResult timed = render(noise, {.spp = 1u << 30, .seconds = 0.2}, other);
+  EXPECT_EQ(timed.reason, StopReason::kTimeLimit);
+  EXPECT_GT(timed.min_spp, 16u);
+}
+
+TEST(Render, InterruptStopsPromptlyAndKeepsTheSamples) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const InterruptGuard guard;
+    Film film(64, 64);
+    std::atomic<int> count = 0;
+    const RenderResult result = render(
+        [&](std::uint32_t x, std::uint32_t y, std::uint32_t index) {
+          if (++count == 20) std::raise(signal);
+          return slow(x, y, index);
+        },
+        {.spp = 16, .threads = 2}, film);
+    EXPECT_EQ(result.reason, StopReason::kInterrupted);
+    EXPECT_LT(result.seconds, 1.0);
+    EXPECT_EQ(result.mean_spp * 64 * 64, count);
+  }
+  const InterruptGuard fresh;
+  EXPECT_FALSE(interrupt_requested());
+}
+
+TEST(RenderDeathTest, SecondInterruptEndsTheProgram) {
+  ::testing::GTEST_FLAG(death_test_style) = "threadsafe";
+  const auto interrupt_twice = [](int first, int second) {
+    const InterruptGuard guard;
+    std::raise(first);
+    std::raise(second);
+  };
+  EXPECT_EXIT(interrupt_twice(SIGINT, SIGINT), ::testing::KilledBySignal(SIGINT), "");
+  EXPECT_EXIT(interrupt_twice(SIGTERM, SIGINT), ::testing::KilledBySignal(SIGINT), "");
+}
+
+}  // namespace
+}  // namespace brume
