@@ -10,13 +10,13 @@ namespace brume {
 
 /// A point on a surface, as a ray found it.
 struct Hit {
-  float t;             // along the ray [unit]
-  Vec3 p;              // on the surface, to within `error` [unit]
-  float error;         // bound on the distance from `p` to the true surface [unit]
-  Vec3 n;              // unit geometric normal, on the side that the shape declares as outside
-  Vec3 n_shading;      // unit interpolated normal, in the hemisphere of `n`
-  Vec3 dp_du;          // tangent; any length, may be zero
-  Vec2 uv;             // surface parameters
+  float t;              // along the ray [unit], positive; to the surface itself, not to `p`
+  Vec3 p;               // on the surface, to within `error` [unit]
+  float error;          // how far `leave` must step along `n` [unit]; see surface_error()
+  Vec3 n;               // unit geometric normal, on the side that the shape declares as outside
+  Vec3 n_shading;       // unit interpolated normal, in the hemisphere of `n`
+  Vec3 dp_du;           // tangent; any length, may be zero
+  Vec2 uv;              // surface parameters
   std::uint32_t shape;  // index in the order given to `RayQueries`
 
   /// Ray that leaves the point in direction `d`, moved off the surface by the error bound and no

@@ -2,12 +2,11 @@
 #pragma once
 
 #include <optional>
-#include <variant>
-#include <vector>
 
 #include "core/box.h"
 #include "core/vec.h"
 #include "geometry/hit.h"
+#include "geometry/precise.h"
 
 namespace brume {
 
@@ -15,16 +14,20 @@ namespace brume {
 struct ShapeSample {
   Vec3 p;       // on the shape [unit]
   Vec3 n;       // unit geometric normal there, outside side
-  float error;  // bound on the distance from `p` to the true surface [unit]
+  float error;  // as `Hit::error` [unit]
   float pdf;    // solid angle seen from the reference point [1/sr]
 };
 
-/// Triangles or quads for Embree; `indices` in threes or fours.
-struct MeshData {
-  std::vector<Vec3> positions;         // [unit]
-  std::vector<std::uint32_t> indices;  // three a triangle
+/// Where a ray meets a shape, in the least data that a shape needs to say more.
+struct Crossing {
+  double t;            // along the ray [unit]
+  std::uint32_t face;  // of the shape: which triangle, which side of the cube
 };
 
+/// A surface in space. The outside is the side that its geometric normal points to.
+///
+/// Normals, surface parameters and flip_normals are those of Mitsuba 3, except that a mirrored
+/// transform keeps the outside outside: Mitsuba turns spheres, cylinders and meshes inside out.
 class Shape {
  public:
   virtual ~Shape() = default;
@@ -36,12 +39,19 @@ class Shape {
   virtual bool is_closed() const = 0;
 
   /// A point as seen from `from`, by solid angle where the shape allows it and by area elsewhere;
-  /// nothing when no point can be seen.
+  /// nothing when no point can be seen. Parts of the shape may hide the point.
   virtual std::optional<ShapeSample> sample_toward(const Vec3& from, const Vec2& u) const = 0;
   /// Density of `sample_toward` for the direction from `from` to `hit` on this shape [1/sr].
   virtual float pdf_toward(const Vec3& from, const Hit& hit) const = 0;
 
-  // TRIANGLES OR ANALYTIC: see helper contract below.
+  /// Pieces that are bounded and intersected one by one: the triangles of a mesh.
+  virtual std::uint32_t piece_count() const { return 1; }
+  virtual Box3 piece_bounds(std::uint32_t /*piece*/) const { return bounds(); }
+  /// First crossing of the ray with a piece for t in (0, t_max].
+  virtual std::optional<Crossing> intersect(const PreciseRay& ray, std::uint32_t piece,
+                                            double t_max) const = 0;
+  /// The surface where `intersect` found it; `t` and `shape` are left to the caller.
+  virtual Hit hit(const PreciseRay& ray, const Crossing& crossing) const = 0;
 };
 
 }  // namespace brume

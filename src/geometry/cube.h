@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include "geometry/shape.h"
+
+namespace brume {
+
+/// The cube [-1, 1]^3 under any invertible affine transform; normals outward, uv in [0, 1]^2 on
+/// every side.
+class Cube final : public Shape {
+ public:
+  Cube(const glm::dmat4& to_world, bool flip_normals);
+
+  Box3 bounds() const override;
+  float area() const override;
+  bool is_closed() const override { return true; }
+  std::optional<ShapeSample> sample_toward(const Vec3& from, const Vec2& u) const override;
+  float pdf_toward(const Vec3& from, const Hit& hit) const override;
+  std::optional<Crossing> intersect(const PreciseRay& ray, std::uint32_t piece,
+                                    double t_max) const override;
+  Hit hit(const PreciseRay& ray, const Crossing& crossing) const override;
+
+ private:
+  /// Sides are numbered -X, +X, -Y, +Y, -Z, +Z.
+  static constexpr int kSides = 6;
+  struct Side {
+    Vec3 n;       // unit, on the outside
+    double area;  // [unit^2]
+  };
+  /// Areas of the sides that can be seen from a point: up to three from outside, six from inside.
+  struct VisibleSides {
+    std::array<double, kSides> area{};  // 0 for a hidden side [unit^2]
+    double total = 0.0;                 // [unit^2]
+  };
+  VisibleSides sides_seen_from(const Vec3& from) const;
+
+  Vec3d center_;    // [unit]
+  Mat3d to_world_;  // of vectors
+  Mat3d to_local_;
+  std::array<Side, kSides> sides_;
+  double extent_;  // the longest diagonal of a side [unit]
+};
+
+}  // namespace brume

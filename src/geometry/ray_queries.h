@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "geometry/hit.h"
+#include "geometry/shape.h"
+
+namespace brume {
+
+/// Asks all shapes of a scene at once, through a bounding volume hierarchy. Immutable; shared
+/// between threads. The answer depends on the shapes and the ray alone: of crossings at the same
+/// distance, that of the first shape, then of its first triangle, is the answer.
+class RayQueries {
+ public:
+  /// At least one shape. `Hit::shape` is the index in `shapes`.
+  explicit RayQueries(std::span<const std::shared_ptr<const Shape>> shapes);
+  RayQueries(RayQueries&&) noexcept;
+  RayQueries& operator=(RayQueries&&) noexcept;
+  ~RayQueries();
+
+  /// Nearest surface along `ray` in (0, t_max), which may be infinite. There is no smallest
+  /// distance: rays that leave a surface start at `Hit::leave`.
+  std::optional<Hit> intersect(const Ray& ray, float t_max) const;
+  /// Whether any surface lies along `ray` in (0, t_max).
+  bool is_occluded(const Ray& ray, float t_max) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<const Impl> impl_;
+};
+
+}  // namespace brume
