@@ -35,7 +35,7 @@ class RoughPlasticBsdf final : public Bsdf {
 
   Microfacets microfacets_;
   float eta_;
-  std::array<float, 64> transmittance_;  // at the cosines 0, 1/63, ..., 1
+  std::array<float, 64> transmittance_;  // of the coat from outside, at cosines 0, 1/63, ..., 1
   PlasticBase base_;
   std::shared_ptr<const Texture> specular_reflectance_;
 };

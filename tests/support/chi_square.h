@@ -57,7 +57,7 @@ using DirectionSampler = std::function<std::optional<DirectionSample>(Rng&)>;
 using DirectionPdf = std::function<float(const Vec3&)>;
 
 struct ChiSquareSettings {
-  Vec3 axis{0.0f, 0.0f, 1.0f};  // pole of the bins; along it they are finest
+  Vec3 axis{0.0f, 0.0f, 1.0f};  // pole of the bins, equal in solid angle
   int cosine_bins = 20;
   int azimuth_bins = 40;
   int samples = 100000;
@@ -81,8 +81,8 @@ class CellIntegrator {
  public:
   CellIntegrator(DirectionPdf pdf, const Vec3& axis) : pdf_(std::move(pdf)), frame_(axis) {}
 
-  /// Integral over `cell` to about 1e-4 of itself, or of `floor` if that is larger.
-  double integrate(const SphereCell& cell, double floor) const {
+  /// Integral over `cell`, to well below the standard error of the share of `n` samples in it.
+  double integrate(const SphereCell& cell, double n) const {
     // A first look through 16 parts, so that a lobe narrower than the cell is not overlooked.
     double estimate = 0.0;
     std::array<SphereCell, 16> parts;
@@ -91,7 +91,7 @@ class CellIntegrator {
       parts[i] = part_of(cell, i % 4, i / 4, 4);
       estimate += values[i] = gauss(parts[i]);
     }
-    const double tolerance = 2e-5 * std::max(estimate, floor);
+    const double tolerance = 1e-3 * std::sqrt(std::max(estimate, 1.0 / n) / n);
     double sum = 0.0;
     for (int i = 0; i < 16; ++i) sum += refine(parts[i], values[i], tolerance, 6);
     return sum;
@@ -166,7 +166,7 @@ inline ::testing::AssertionResult samples_follow_pdf(const DirectionSampler& sam
                                     .z1 = -1.0 + 2.0 * (row + 1) / rows,
                                     .phi0 = 2.0 * M_PI * column / columns,
                                     .phi1 = 2.0 * M_PI * (column + 1) / columns};
-      const double p = integrator.integrate(cell, 1.0 / n);
+      const double p = integrator.integrate(cell, n);
       if (!(p >= 0.0) || !std::isfinite(p)) {
         return ::testing::AssertionFailure()
                << "density integrates to " << p << " over cos [" << cell.z0 << ", " << cell.z1
