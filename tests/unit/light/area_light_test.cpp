@@ -7,6 +7,7 @@
 
 #include "core/warp.h"
 #include "geometry/disk.h"
+#include "geometry/ray_queries.h"
 #include "geometry/rectangle.h"
 #include "geometry/sphere.h"
 #include "unit/light/light_laws.h"
@@ -18,15 +19,6 @@ namespace {
 glm::dmat4 ceiling(double x, double y, double height) {
   return {glm::dvec4(x, 0, 0, 0), glm::dvec4(0, 0, y, 0), glm::dvec4(0, -1, 0, 0),
           glm::dvec4(0, height, 0, 1)};
-}
-
-/// What a ray from `o` finds of a shape of one piece.
-std::optional<Hit> first_hit(const Shape& shape, const Vec3& o, const Vec3& d,
-                             double t_max = INFINITY) {
-  const PreciseRay ray{o, d};
-  const auto crossing = shape.intersect(ray, 0, t_max);
-  if (!crossing) return std::nullopt;
-  return shape.hit(ray, *crossing);
 }
 
 class AreaLightOfSize : public ::testing::TestWithParam<float> {
@@ -75,6 +67,7 @@ TEST_P(AreaLightOfSize, ShadowRayEndsInFrontOfTheLight) {
       std::make_shared<Disk>(ceiling(s, s, 2.0 * s), false)};
   for (const auto& shape : shapes) {
     const AreaLight light(shape, Rgb(1.0f));
+    const RayQueries queries({&shape, 1});
     const Vec3 center = shape->bounds().center();
     Rng rng(13);
     int lit = 0, found = 0;
@@ -86,8 +79,8 @@ TEST_P(AreaLightOfSize, ShadowRayEndsInFrontOfTheLight) {
       const auto light_sample = light.sample(p, rng.next_vec2());
       if (!light_sample) continue;
       ++lit;
-      ASSERT_FALSE(first_hit(*shape, p, light_sample->d, light_sample->distance)) << away;
-      if (const auto hit = first_hit(*shape, p, light_sample->d)) {
+      ASSERT_FALSE(queries.is_occluded({p, light_sample->d}, light_sample->distance)) << away;
+      if (const auto hit = queries.intersect({p, light_sample->d}, kInfinity)) {
         ++found;
         ASSERT_EQ(light.radiance(*hit, light_sample->d), Rgb(1.0f));
       }
@@ -100,10 +93,12 @@ TEST_P(AreaLightOfSize, ShadowRayEndsInFrontOfTheLight) {
 INSTANTIATE_TEST_SUITE_P(Sizes, AreaLightOfSize, ::testing::Values(1e-6f, 1.0f, 1e6f, 1e12f));
 
 TEST(AreaLight, EmitsOnlyToTheOutside) {
-  const auto rectangle = std::make_shared<Rectangle>(ceiling(1, 1, 2), false);
+  const std::shared_ptr<const Shape> rectangle =
+      std::make_shared<Rectangle>(ceiling(1, 1, 2), false);
   const AreaLight light(rectangle, {1, 2, 3});
-  const auto from_below = first_hit(*rectangle, {0.1f, 0, 0.2f}, {0, 1, 0});
-  const auto from_above = first_hit(*rectangle, {0.1f, 4, 0.2f}, {0, -1, 0});
+  const RayQueries queries({&rectangle, 1});
+  const auto from_below = queries.intersect({{0.1f, 0, 0.2f}, {0, 1, 0}}, kInfinity);
+  const auto from_above = queries.intersect({{0.1f, 4, 0.2f}, {0, -1, 0}}, kInfinity);
   ASSERT_TRUE(from_below && from_above);
   EXPECT_EQ(light.radiance(*from_below, {0, 1, 0}), Rgb(1, 2, 3));
   EXPECT_EQ(light.radiance(*from_above, {0, -1, 0}), Rgb(0.0f));
@@ -131,6 +126,7 @@ TEST(AreaLight, SamplesFollowTheDensityOfTheirHits) {
       std::make_shared<Disk>(ceiling(1, 1, 1), false)};
   for (const auto& shape : shapes) {
     const AreaLight light(shape, Rgb(1.0f));
+    const RayQueries queries({&shape, 1});
     EXPECT_TRUE(test::samples_follow_pdf(
         [&](Rng& rng) -> std::optional<test::DirectionSample> {
           const auto s = light.sample(Vec3(0.0f), rng.next_vec2());
@@ -138,7 +134,7 @@ TEST(AreaLight, SamplesFollowTheDensityOfTheirHits) {
           return test::DirectionSample{.d = s->d, .pdf = s->pdf};
         },
         [&](const Vec3& d) {
-          const auto hit = first_hit(*shape, Vec3(0.0f), d);
+          const auto hit = queries.intersect({Vec3(0.0f), d}, kInfinity);
           return hit ? light.pdf(Vec3(0.0f), *hit) : 0.0f;
         },
         {.axis = {0, 1, 0}}));
