@@ -85,9 +85,15 @@ bool PathIntegrator::scatter_in_medium(Path& path, const FreeFlight& flight,
   if (!flight.phase.is_delta()) {
     if (const auto light = scene_.lights().sample(p, u_light, u_target)) {
       const float value = flight.phase.eval(d, light->d);
-      const Rgb T =
-          scene_.transmittance({p, light->d}, light->distance, path.medium, sampler.rng());
-      path.L += path.beta * T * light->weight * (value * power_heuristic(light->pdf, value));
+      const float weighted = value * power_heuristic(light->pdf, value);
+      // A shadow ray costs as much as a scattering: directions into which less is scattered than
+      // isotropically get one only with that proportion.
+      const float p_trace = std::min(4.0f * kPi * weighted, 1.0f);
+      if (sampler.rng().next_float() < p_trace) {
+        const Rgb T =
+            scene_.transmittance({p, light->d}, light->distance, path.medium, sampler.rng());
+        path.L += path.beta * T * light->weight * (weighted / p_trace);
+      }
     }
   }
 

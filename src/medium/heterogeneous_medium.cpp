@@ -3,6 +3,8 @@
 
 #include <cassert>
 #include <cmath>
+#include <concepts>
+#include <type_traits>
 
 #include "medium/majorant_check.h"
 #include "volume/bounds_grid.h"
@@ -10,28 +12,42 @@
 namespace brume {
 namespace {
 
+/// Part of the extinction that a cell has everywhere, known without a lookup. A coloured density
+/// is bounded over all channels, and its collisions need each channel's value.
+float control(const ValueRange& range, float /*value type*/) {
+  return range.min;
+}
+float control(const ValueRange& /*range*/, const Rgb& /*value type*/) {
+  return 0.0f;
+}
+
 /// Optical thickness that a flight passes before its next tentative collision; `u` in [0, 1).
 float sample_optical_thickness(float u) {
   return -std::log1p(-u);
 }
 
-// --- What a tentative collision with extinction `sigma_t` under the majorant turns into.
-// Returns whether it is real; multiplies `weight` by value over probability either way.
+// What a tentative collision turns into under the majorant: whether it is real. Multiplies
+// `weight` by value over probability. `sigma_t()` looks the extinction up, which a collision with
+// the part `sigma_c` that is there anyway does not need (Kutz et al. 2017, decomposition tracking).
 
-bool decide_collision(float sigma_t, float sigma_maj, const Rgb& /*beta*/, Rgb& /*weight*/,
-                      Rng& rng) {
-  return rng.next_float() * sigma_maj < sigma_t;
+template <class Lookup>
+bool is_real(float sigma_maj, float sigma_c, const Rgb& /*beta*/, Rgb& /*weight*/, Rng& rng,
+             Lookup&& sigma_t) {
+  const float u = rng.next_float() * sigma_maj;
+  return u < sigma_c || u < sigma_t();
 }
 
-/// Probability averaged over the channels with what each still carries (Kutz et al. 2017, eq. 14).
-bool decide_collision(const Rgb& sigma_t, float sigma_maj, const Rgb& beta, Rgb& weight, Rng& rng) {
+/// The probability averages the channels by what each still carries (Kutz et al. 2017, eq. 14).
+template <class Lookup>
+requires std::same_as<std::invoke_result_t<Lookup>, Rgb>
+bool is_real(float sigma_maj, float /*sigma_c*/, const Rgb& beta, Rgb& weight, Rng& rng,
+             Lookup&& sigma_t) {
   const Rgb carried = beta * weight;
   const float total = carried.r + carried.g + carried.b;
-  const Rgb p_real_channel = glm::min(sigma_t / sigma_maj, Rgb{1.0f});
-  const float p_real =
-      total > 0.0f ? glm::dot(carried, p_real_channel) / total : mean(p_real_channel);
-  const bool real = rng.next_float() < p_real;
-  weight *= real ? p_real_channel / p_real : (1.0f - p_real_channel) / (1.0f - p_real);
+  const Rgb p_channel = glm::min(sigma_t() / sigma_maj, Rgb{1.0f});
+  const float p = total > 0.0f ? glm::dot(carried, p_channel) / total : mean(p_channel);
+  const bool real = rng.next_float() < p;
+  weight *= real ? p_channel / p : (1.0f - p_channel) / (1.0f - p);
   return real;
 }
 
@@ -65,9 +81,10 @@ class HeterogeneousMedium final : public Medium {
     GridLookup<Value> lookup(*density_);
     float tau = sample_optical_thickness(sampler.next_1d());
     walk_cells(bounds_, *segment, [&](const glm::ivec3& cell, float t, float t1) {
-      const float sigma_maj = bounds_.range(cell).max * density_scale_;
+      const ValueRange range = bounds_.range(cell);
+      const float sigma_maj = range.max * density_scale_;
       if (!(sigma_maj > 0.0f)) return true;
-      const Box3 cell_box = bounds_.cell_box(cell);
+      const float sigma_c = control(range, Value{}) * density_scale_;
       while (true) {
         const float tau_to_end = sigma_maj * (t1 - t);
         if (!(tau < tau_to_end)) {
@@ -76,9 +93,8 @@ class HeterogeneousMedium final : public Medium {
         }
         t += tau / sigma_maj;
         tau = sample_optical_thickness(rng.next_float());
-        const Value sigma_t = extinction(lookup, cell_box, *segment, t, rng);
-        check_majorant(largest(sigma_t), sigma_maj);
-        if (decide_collision(sigma_t, sigma_maj, beta, flight.weight, rng)) {
+        const auto sigma_t = [&] { return extinction(lookup, cell, *segment, t, sigma_maj, rng); };
+        if (is_real(sigma_maj, sigma_c, beta, flight.weight, rng, sigma_t)) {
           flight.scattered = true;
           flight.t = segment->t_start + t;
           return false;
@@ -101,22 +117,25 @@ class HeterogeneousMedium final : public Medium {
     GridLookup<Value> lookup(*density_);
     float tau = sample_optical_thickness(rng.next_float());
     walk_cells(bounds_, *segment, [&](const glm::ivec3& cell, float t, float t1) {
-      const float sigma_maj = bounds_.range(cell).max * density_scale_;
-      if (!(sigma_maj > 0.0f)) return true;
-      const Box3 cell_box = bounds_.cell_box(cell);
-      while (true) {
-        const float tau_to_end = sigma_maj * (t1 - t);
+      const ValueRange range = bounds_.range(cell);
+      if (!(range.max > 0.0f)) return true;
+      // The control has a closed form; only what is above it is tracked, by ratio tracking.
+      const float sigma_maj = range.max * density_scale_;
+      const float sigma_c = control(range, Value{}) * density_scale_;
+      if (sigma_c > 0.0f) T *= std::exp(-sigma_c * (t1 - t));
+      const float residual = sigma_maj - sigma_c;
+      while (survives_roulette(T, rng)) {
+        const float tau_to_end = residual * (t1 - t);
         if (!(tau < tau_to_end)) {
           tau -= tau_to_end;
           return true;
         }
-        t += tau / sigma_maj;
+        t += tau / residual;
         tau = sample_optical_thickness(rng.next_float());
-        const Value sigma_t = extinction(lookup, cell_box, *segment, t, rng);
-        check_majorant(largest(sigma_t), sigma_maj);
-        T *= glm::max(1.0f - sigma_t / sigma_maj, Value(0.0f));
-        if (!survives_roulette(T, rng)) return false;
+        const Value sigma_t = extinction(lookup, cell, *segment, t, sigma_maj, rng);
+        T *= glm::max((sigma_maj - sigma_t) / residual, Value(0.0f));
       }
+      return false;
     });
     return Rgb(T);
   }
@@ -124,12 +143,15 @@ class HeterogeneousMedium final : public Medium {
  private:
   /// Extinction at t along the segment [1/unit], with the expectation of interpolation. The point
   /// is held inside its cell, whose bounds therefore hold, whatever the rounding of t.
-  Value extinction(GridLookup<Value>& lookup, const Box3& cell_box, const IndexSegment& segment,
-                   float t, Rng& rng) const {
-    const Vec3 p = glm::clamp(segment.o + t * segment.d, cell_box.min, cell_box.max);
-    return density_scale_ * (density_->interpolation() == Interpolation::kNearest
-                                 ? lookup.nearest(p)
-                                 : lookup.stochastic(p, rng));
+  Value extinction(GridLookup<Value>& lookup, const glm::ivec3& cell, const IndexSegment& segment,
+                   float t, [[maybe_unused]] float sigma_maj, Rng& rng) const {
+    const Box3 box = bounds_.cell_box(cell);
+    const Vec3 p = glm::clamp(segment.o + t * segment.d, box.min, box.max);
+    const Value sigma_t = density_scale_ * (density_->interpolation() == Interpolation::kNearest
+                                                ? lookup.nearest(p)
+                                                : lookup.stochastic(p, rng));
+    check_majorant(largest(sigma_t), sigma_maj);
+    return sigma_t;
   }
 
   /// Unbiased end of an estimate that has become small; sets T to 0 when it ends.

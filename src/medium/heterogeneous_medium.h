@@ -10,8 +10,9 @@
 namespace brume {
 
 /// Medium whose extinction is a grid: `sigma_t` = density * `density_scale` [1/unit], vacuum
-/// outside the grid's box. Free flights by delta tracking, transmittance by ratio tracking, both
-/// along the cells of a bounds grid (Woodcock et al. 1965; Novak et al. 2014).
+/// outside the grid's box. Both go along the cells of a bounds grid, whose minima need no lookups:
+/// free flights by decomposition tracking (Kutz et al. 2017), transmittance by residual ratio
+/// tracking (Novak et al. 2014).
 /// A coloured density is tracked in all channels at once with one scalar majorant and collision
 /// probabilities that follow the throughput (Kutz et al. 2017).
 /// `albedo` in [0, 1] is read at real collisions only.

@@ -67,10 +67,7 @@ BoundsGrid::BoundsGrid(const Grid<Value>& grid, int cell_size)
         const Box3 box = cell_box(cell);
         const glm::ivec3 lo(glm::floor(box.min + reach));
         const glm::ivec3 hi(reach > 0.0f ? glm::floor(box.max + reach) : glm::ceil(box.max));
-        ValueRange range = range_over_voxels<Value>(accessor, lo, hi);
-        // Interpolation in float may pass the largest voxel by a rounding.
-        range.min = std::max(0.0f, range.min * (1.0f - 0x1p-20f));
-        range.max *= 1.0f + 0x1p-20f;
+        const ValueRange range = range_over_voxels<Value>(accessor, lo, hi);
         extend(total_, range);
         ranges_.push_back(range);
       }
