@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "film/filter.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <vector>
 
 namespace brume {
 namespace {
@@ -15,21 +15,10 @@ float sample_tent(float u) {
 
 constexpr double kGaussianCutoff = 4.0;  // [standard deviations]
 
-/// Masses of equal bins over the support of the lowered Gaussian, each integrated exactly. The
-/// density is constant within a bin of 1/128 standard deviation, far below what a picture shows.
-std::vector<float> gaussian_bins() {
-  constexpr int kBins = 1024;
-  const double floor = std::exp(-0.5 * kGaussianCutoff * kGaussianCutoff);
-  const auto integral = [floor](double x) {  // of exp(-x^2/2) - floor, x in standard deviations
-    return std::sqrt(0.5 * std::acos(-1.0)) * std::erf(x / std::sqrt(2.0)) - floor * x;
-  };
-  std::vector<float> bins(kBins);
-  for (int i = 0; i < kBins; ++i) {
-    const double left = kGaussianCutoff * (2.0 * i / kBins - 1.0);
-    const double right = kGaussianCutoff * (2.0 * (i + 1) / kBins - 1.0);
-    bins[std::size_t(i)] = static_cast<float>(integral(right) - integral(left));
-  }
-  return bins;
+/// Integral from 0 to `x` [standard deviations] of the Gaussian less its value at the cutoff.
+double lowered_gaussian_integral(double x) {
+  const double lowering = std::exp(-0.5 * kGaussianCutoff * kGaussianCutoff);
+  return std::sqrt(0.5 * std::acos(-1.0)) * std::erf(x / std::sqrt(2.0)) - lowering * x;
 }
 
 }  // namespace
@@ -39,13 +28,31 @@ Vec2 TentFilter::sample(const Vec2& u) const {
 }
 
 GaussianFilter::GaussianFilter(float stddev)
-    : radius_(static_cast<float>(kGaussianCutoff) * stddev), distribution_(gaussian_bins()) {
+    : radius_(static_cast<float>(kGaussianCutoff) * stddev) {
   assert(stddev > 0.0f);
+  const double total = 2.0 * lowered_gaussian_integral(kGaussianCutoff);
+  for (std::size_t i = 0; i <= kBins; ++i) {
+    const double x = kGaussianCutoff * (2.0 * double(i) / double(kBins) - 1.0);
+    cdf_[i] = 0.5 + lowered_gaussian_integral(x) / total;
+  }
+  cdf_.back() = 1.0;
+  for (std::size_t i = 0; i < kBins; ++i) {
+    const auto above = std::upper_bound(cdf_.begin() + 1, cdf_.end(), double(i) / double(kBins));
+    first_bin_[i] = static_cast<std::uint16_t>(above - cdf_.begin() - 1);
+  }
+}
+
+/// The mass of every bin is exact; within one, 1/128 standard deviation wide, the density is taken
+/// as constant, far below what a picture shows.
+float GaussianFilter::sample_axis(float u) const {
+  std::size_t bin = first_bin_[std::size_t(u * float(kBins))];
+  while (cdf_[bin + 1] <= u) ++bin;
+  const double offset = (u - cdf_[bin]) / (cdf_[bin + 1] - cdf_[bin]);
+  return radius_ * static_cast<float>(2.0 * (double(bin) + offset) / double(kBins) - 1.0);
 }
 
 Vec2 GaussianFilter::sample(const Vec2& u) const {
-  const Vec2 unit(distribution_.sample(u.x).x, distribution_.sample(u.y).x);
-  return radius_ * (2.0f * unit - 1.0f);
+  return {sample_axis(u.x), sample_axis(u.y)};
 }
 
 }  // namespace brume

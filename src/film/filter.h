@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "core/distribution.h"
+#include <array>
+#include <cstdint>
+
 #include "core/vec.h"
 
 namespace brume {
@@ -50,8 +52,13 @@ class GaussianFilter final : public Filter {
   float radius() const override { return radius_; }
 
  private:
+  static constexpr std::size_t kBins = 1024;  // equal ones over [-radius, radius]
+
+  float sample_axis(float u) const;
+
   float radius_;
-  Distribution1d distribution_;  // over [-radius, radius]
+  std::array<double, kBins + 1> cdf_;           // at the edges of the bins
+  std::array<std::uint16_t, kBins> first_bin_;  // that ends above u = i / kBins, for entry i
 };
 
 }  // namespace brume

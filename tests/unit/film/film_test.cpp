@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <functional>
+#include <ostream>
 #include <thread>
 #include <vector>
 
@@ -35,6 +36,8 @@ struct SpreadCase {
   const char* name;
   Draw draw;
   std::uint32_t samples;
+
+  friend std::ostream& operator<<(std::ostream& out, const SpreadCase& c) { return out << c.name; }
 };
 
 class FilmSpread : public ::testing::TestWithParam<SpreadCase> {};

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <ostream>
 
 #include "core/rng.h"
 #include "support/statistics.h"
@@ -18,6 +19,8 @@ struct FilterCase {
   const char* name;
   std::shared_ptr<const Filter> filter;
   std::function<double(double)> shape;  // along one axis, not normalised
+
+  friend std::ostream& operator<<(std::ostream& out, const FilterCase& c) { return out << c.name; }
 };
 
 double lowered_gaussian(double x, double stddev) {
