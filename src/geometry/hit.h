@@ -24,6 +24,18 @@ struct Hit {
   Ray leave(const Vec3& d) const {
     return {.o = glm::dot(d, n) >= 0.0f ? p + error * n : p - error * n, .d = d};
   }
+
+  /// As `leave`, for a ray that must end at the point `distance` along `d` [unit, may be infinite]:
+  /// it is aimed anew from where it starts, and `distance` becomes its length.
+  Ray leave_toward(const Vec3& d, float& distance) const {
+    const Ray ray = leave(d);
+    if (!(distance < kInfinity)) return ray;
+    const glm::dvec3 target = glm::dvec3(p) + double(distance) * glm::dvec3(d);
+    const glm::dvec3 to_target = target - glm::dvec3(ray.o);
+    const double length = glm::length(to_target);
+    distance = float(length);
+    return length > 0.0 ? Ray{.o = ray.o, .d = Vec3(to_target / length)} : ray;
+  }
 };
 
 }  // namespace brume

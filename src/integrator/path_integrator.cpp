@@ -123,9 +123,10 @@ bool PathIntegrator::interact_with_surface(Path& path, const Hit& hit, Sampler& 
       const Rgb value = bsdf.eval(wo, wi, hit.uv);
       if (!is_black(value) && same_side(wi, light->d)) {
         const float weight = power_heuristic(light->pdf, bsdf.pdf(wo, wi, hit.uv));
-        const Rgb T = scene_.transmittance(
-            hit.leave(light->d), light->distance,
-            scene_.medium_toward(hit, -path.ray.d, light->d, path.medium), sampler.rng());
+        float distance = light->distance;
+        const Ray shadow = hit.leave_toward(light->d, distance);
+        const Medium* medium = scene_.medium_toward(hit, -path.ray.d, light->d, path.medium);
+        const Rgb T = scene_.transmittance(shadow, distance, medium, sampler.rng());
         path.L += path.beta * value * T * light->weight * weight;
       }
     }

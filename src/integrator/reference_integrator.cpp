@@ -36,8 +36,8 @@ Rgb ReferenceIntegrator::analog_transmittance(Ray ray, float distance, const Med
     T *= scene_.bsdf(*hit).straight_transmittance(frame.to_local(-ray.d), hit->uv);
     if (is_black(T)) return T;
     medium = scene_.medium_across(*hit, ray.d, medium);
-    ray = hit->leave(ray.d);
     distance -= hit->t;
+    ray = hit->leave_toward(ray.d, distance);
   }
 }
 
@@ -86,10 +86,12 @@ Rgb ReferenceIntegrator::sample(const Vec2& film, Sampler& sampler) const {
       const Rgb light = dirac_light(hit->p, sampler, d, distance);
       if (!is_black(light)) {
         const Rgb value = bsdf.eval(wo, frame.to_local(d), hit->uv);
-        if (!is_black(value))
+        if (!is_black(value)) {
+          const Ray shadow = hit->leave_toward(d, distance);
           L += beta * light * value *
-               analog_transmittance(hit->leave(d), distance,
-                                    scene_.medium_toward(*hit, -ray.d, d, medium), sampler);
+               analog_transmittance(shadow, distance, scene_.medium_toward(*hit, -ray.d, d, medium),
+                                    sampler);
+        }
       }
     }
 

@@ -103,13 +103,12 @@ Scene::MediumAt Scene::medium_at(const Vec3& p) const {
 
 const Medium* Scene::medium_beside(const Vec3& from, const Medium* medium, const Vec3& to) const {
   if (from == to) return medium;
-  const Vec3 d = glm::normalize(to - from);
-  Ray ray{.o = from, .d = d};
+  Ray ray{.o = from, .d = glm::normalize(to - from)};
   float distance = glm::distance(from, to);
   while (const auto hit = intersect(ray, distance)) {
-    medium = medium_across(*hit, d, medium);
-    ray = hit->leave(d);
+    medium = medium_across(*hit, ray.d, medium);
     distance -= hit->t;
+    ray = hit->leave_toward(ray.d, distance);
   }
   return medium;
 }
@@ -129,8 +128,8 @@ Rgb Scene::transmittance(const Ray& ray, float distance, const Medium* medium, R
     if (!hit || is_black(T)) return T;
     T *= passing;
     medium = medium_across(*hit, segment.d, medium);
-    segment = hit->leave(segment.d);
     distance -= hit->t;
+    segment = hit->leave_toward(segment.d, distance);
   }
 }
 
@@ -141,8 +140,7 @@ std::optional<Scene::Emission> Scene::emission(const Vec3& from, const Hit& hit,
   const Rgb L = light->radiance(hit, d);
   if (is_black(L)) return std::nullopt;
   return Emission{
-      .L = L,
-      .pdf = lights_.probability(from, light_index_[hit.shape]) * light->pdf(from, hit)};
+      .L = L, .pdf = lights_.probability(from, light_index_[hit.shape]) * light->pdf(from, hit)};
 }
 
 }  // namespace brume

@@ -43,18 +43,22 @@ glm::dmat4 skewed_transform() {
   return glm::scale(m, glm::dvec3(2.0, -0.7, 1.3));
 }
 
-/// Optical thickness by the midpoint rule, in double.
-double quadrature(const Grid<float>& grid, const Ray& ray, float t_max) {
+/// Optical thickness by the midpoint rule between the faces of the box, in double.
+double quadrature(const Grid<float>& grid, const Ray& ray, double t_max) {
+  const glm::dvec3 o(grid.index_from_world() * glm::dvec4(ray.o, 1.0));
+  const glm::dvec3 d(glm::dmat3(grid.index_from_world()) * glm::dvec3(ray.d));
+  const glm::dvec3 a = (glm::dvec3(grid.box().min) - o) / d;
+  const glm::dvec3 b = (glm::dvec3(grid.box().max) - o) / d;
+  const glm::dvec3 near = glm::min(a, b), far = glm::max(a, b);
+  const double t0 = std::max({0.0, near.x, near.y, near.z});
+  const double t1 = std::min({t_max, far.x, far.y, far.z});
+
   GridLookup<float> lookup(grid);
   const int n = 20000;
-  double tau = 0.0;
-  for (int i = 0; i < n; ++i) {
-    const double t = (i + 0.5) / n * t_max;
-    const Vec3 p(grid.index_from_world() *
-                 glm::dvec4(glm::dvec3(ray.o) + t * glm::dvec3(ray.d), 1.0));
-    if (grid.box().contains(p)) tau += lookup.trilinear(p) * t_max / n;
-  }
-  return tau;
+  double sum = 0.0;
+  for (int i = 0; i < n; ++i)
+    sum += lookup.trilinear(Vec3(o + (t0 + (i + 0.5) / n * (t1 - t0)) * d));
+  return sum * (t1 - t0) / n;
 }
 
 class HeterogeneousLaw : public ::testing::TestWithParam<std::tuple<int, bool>> {};
