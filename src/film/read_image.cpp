@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -14,6 +15,12 @@
 
 namespace brume {
 namespace {
+
+/// The library's own words, which may come in several lines, in one.
+std::string one_line(std::string message) {
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  return message;
+}
 
 std::optional<std::size_t> find_channel(const OIIO::ImageSpec& spec, std::string_view name) {
   const int index = spec.channelindex(OIIO::string_view(name.data(), name.size()));
@@ -61,14 +68,15 @@ Image read_image(const std::string& path, IntegerEncoding encoding) {
   config.attribute("oiio:UnassociatedAlpha", 1);
   const auto file = OIIO::ImageInput::open(path, &config);
   if (!file)
-    throw Error(fmt::format("{}: cannot be read as a picture: {}", path, OIIO::geterror()));
+    throw Error(
+        fmt::format("{}: cannot be read as a picture: {}", path, one_line(OIIO::geterror())));
 
   const OIIO::ImageSpec& spec = file->spec();
   const std::vector<std::size_t> source = colour_channels(spec, path);
   const auto file_channels = std::size_t(spec.nchannels);
   std::vector<float> values(std::size_t(spec.width) * std::size_t(spec.height) * file_channels);
   if (!file->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data()))
-    throw Error(fmt::format("{}: damaged picture: {}", path, file->geterror()));
+    throw Error(fmt::format("{}: damaged picture: {}", path, one_line(file->geterror())));
 
   Image image{.width = spec.full_width, .height = spec.full_height, .channels = {"R", "G", "B"}};
   if (source.size() == 4) image.channels.push_back("A");
