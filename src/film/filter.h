@@ -15,10 +15,8 @@ class Filter {
  public:
   virtual ~Filter() = default;
 
-  /// Offset from the pixel centre [pixel], within `radius()` on each axis.
+  /// Offset from the pixel centre [pixel].
   virtual Vec2 sample(const Vec2& u) const = 0;
-  /// Half the width of the support [pixel].
-  virtual float radius() const = 0;
 };
 
 /// Constant over `radius` on either side; 0.5 covers the pixel's own square.
@@ -26,10 +24,9 @@ class BoxFilter final : public Filter {
  public:
   explicit BoxFilter(float radius = 0.5f) : radius_(radius) {}
   Vec2 sample(const Vec2& u) const override { return radius_ * (2.0f * u - 1.0f); }
-  float radius() const override { return radius_; }
 
  private:
-  float radius_;
+  float radius_;  // [pixel]
 };
 
 /// Falls linearly from the centre to zero at `radius`.
@@ -37,10 +34,9 @@ class TentFilter final : public Filter {
  public:
   explicit TentFilter(float radius = 1.0f) : radius_(radius) {}
   Vec2 sample(const Vec2& u) const override;
-  float radius() const override { return radius_; }
 
  private:
-  float radius_;
+  float radius_;  // [pixel]
 };
 
 /// Gaussian, lowered by its value at 4 standard deviations so that it ends there without a step.
@@ -49,14 +45,13 @@ class GaussianFilter final : public Filter {
   /// `stddev` [pixel] is positive.
   explicit GaussianFilter(float stddev = 0.5f);
   Vec2 sample(const Vec2& u) const override;
-  float radius() const override { return radius_; }
 
  private:
   static constexpr std::size_t kBins = 1024;  // equal ones over [-radius, radius]
 
   float sample_axis(float u) const;
 
-  float radius_;
+  float radius_;                                // [pixel]
   std::array<double, kBins + 1> cdf_;           // at the edges of the bins
   std::array<std::uint16_t, kBins> first_bin_;  // that ends above u = i / kBins, for entry i
 };
