@@ -97,7 +97,7 @@ float Microfacets::G1(const Vec3& v, const Vec3& m) const {
   const float x = alpha_u_ * v.x, y = alpha_v_ * v.y;
   const float slope2 = (x * x + y * y) / (v.z * v.z);  // alpha^2 tan^2
   if (type_ == MicrofacetType::kGgx) return 2.0f / (1.0f + std::sqrt(1.0f + slope2));
-  // Exact Lambda of Heitz 2014, eq. 67; a rational fit would leave the density of visible normals
+  // Exact Lambda of Heitz 2014, eq. 66; a rational fit would leave the density of visible normals
   // 0.3% short of normalised.
   const float a = 1.0f / std::sqrt(slope2);
   const float lambda = 0.5f * (float(kInvSqrtPi) * std::exp(-a * a) / a - std::erfc(a));

@@ -79,6 +79,7 @@ std::vector<Case> cases() {
       {"rough_dielectric_ggx_0_05", rough_glass({kGgx, 0.05f, 0.05f}, 2.4f)},
       {"rough_dielectric_ggx_brushed", rough_glass({kGgx, 0.2f, 0.7f}, 1.5f)},
       {"rough_dielectric_bubble", rough_glass({kGgx, 0.3f, 0.3f}, 1.0f / 1.5f)},
+      {"rough_dielectric_index_1_1", rough_glass({kBeckmann, 0.5f, 0.5f}, 1.1f)},
       {"rough_plastic_beckmann_0_1", rough_plastic({kBeckmann, 0.1f, 0.1f}, false)},
       {"rough_plastic_ggx_0_5", rough_plastic({kGgx, 0.5f, 0.5f}, true)},
   };
@@ -183,6 +184,34 @@ TEST_P(BsdfLaw, StraightLightIsWhatSamplingSendsStraight) {
     }
     const Rgb want = bsdf_.straight_transmittance(wo, kUv);
     for (int c = 0; c < 3; ++c) EXPECT_TRUE(test::agrees(mean[c], want[c], 1e-6));
+  }
+}
+
+TEST_P(BsdfLaw, ExtremeNumbersGiveFiniteValues) {
+  const float numbers[] = {0.0f, 0x1p-24f, 0.5f, kOneMinusEpsilon};
+  for (const float cos_theta : {1.0f, 1e-3f, 1e-7f, 1e-20f, 0.0f, -1e-20f, -1e-3f, -1.0f}) {
+    const float sin_theta = std::sqrt((1.0f - cos_theta) * (1.0f + cos_theta));
+    const Vec3 wo = spherical_direction(sin_theta, cos_theta, 0.1f);
+    for (const float u_lobe : numbers) {
+      for (const float x : numbers) {
+        for (const float y : numbers) {
+          const std::optional<BsdfSample> s = bsdf_.sample(wo, kUv, u_lobe, {x, y});
+          if (!s) continue;
+          ASSERT_NEAR(glm::length(s->wi), 1.0f, 1e-5f);
+          ASSERT_GT(s->pdf, 0.0f);
+          ASSERT_TRUE(is_finite_and_non_negative(s->weight)) << "wo.z = " << wo.z;
+        }
+      }
+    }
+    for (const float z : {1.0f, 1e-20f, 0.0f, -1e-7f, -1.0f}) {
+      const Vec3 wi = spherical_direction(std::sqrt((1.0f - z) * (1.0f + z)), z, 2.0f);
+      ASSERT_TRUE(is_finite_and_non_negative(bsdf_.eval(wo, wi, kUv))) << wo.z << " " << z;
+      ASSERT_TRUE(std::isfinite(bsdf_.pdf(wo, wi, kUv))) << wo.z << " " << z;
+    }
+    for (const Vec3& wi : {wo, -wo, Vec3(-wo.x, -wo.y, wo.z)}) {
+      ASSERT_TRUE(is_finite_and_non_negative(bsdf_.eval(wo, wi, kUv))) << wo.z;
+      ASSERT_TRUE(std::isfinite(bsdf_.pdf(wo, wi, kUv))) << wo.z;
+    }
   }
 }
 

@@ -71,8 +71,19 @@ TEST(DiffuseFresnelReflectance, BothSidesAreTiedByTheSquaredIndex) {
     const float inside = diffuse_fresnel_reflectance(1.0f / eta);
     EXPECT_NEAR((1.0f - inside) * eta * eta, 1.0f - diffuse_fresnel_reflectance(eta), 1e-4f);
   }
-  // Jakob 2012, quoting the closed form of Walsh (1926) for an index of 1.5.
-  EXPECT_NEAR(diffuse_fresnel_reflectance(1.5f), 0.0918f, 1e-4f);
+}
+
+TEST(DiffuseFresnelReflectance, MatchesWalshsIntegral) {
+  // Walsh 1926, in the form of Duntley 1942, eq. 10.
+  for (const float eta : {1.2f, 1.33f, 1.5f, 2.0f, 3.0f}) {
+    const double n = double(eta), n2 = n * n, n4 = n2 * n2;
+    const double want =
+        0.5 + (n - 1.0) * (3.0 * n + 1.0) / (6.0 * (n + 1.0) * (n + 1.0)) +
+        n2 * (n2 - 1.0) * (n2 - 1.0) / std::pow(n2 + 1.0, 3) * std::log((n - 1.0) / (n + 1.0)) -
+        2.0 * n2 * n * (n2 + 2.0 * n - 1.0) / ((n2 + 1.0) * (n4 - 1.0)) +
+        8.0 * n4 * (n4 + 1.0) / ((n2 + 1.0) * (n4 - 1.0) * (n4 - 1.0)) * std::log(n);
+    EXPECT_NEAR(double(diffuse_fresnel_reflectance(eta)), want, 2e-5) << eta;
+  }
 }
 
 /// Straight from the amplitudes, in complex double.

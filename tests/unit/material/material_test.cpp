@@ -152,6 +152,28 @@ TEST(PlasticBsdf, AlbedoIsTheMeanOverDiffuseLight) {
   }
 }
 
+TEST(RoughBsdf, AlmostEqualIndicesPassLightAlmostStraight) {
+  // The lobe is 1e-4 wide, where float directions are good to 1e-7: finite, and nothing is lost.
+  const Microfacets rough(MicrofacetType::kBeckmann, 0.1f, 0.1f);
+  const RoughDielectricBsdf air_in_vacuum(rough, 1.000277f, grey(1.0f), grey(1.0f));
+  Rng rng(10);
+  for (const float cos_theta : {1.0f, 0.5f, -0.5f}) {
+    const Vec3 wo = direction(cos_theta);
+    test::RunningMean mean;
+    for (int i = 0; i < 5000; ++i) {
+      const float u_lobe = rng.next_float();
+      const auto s = air_in_vacuum.sample(wo, kUv, u_lobe, rng.next_vec2());
+      mean.add(s ? s->weight.g * s->eta * s->eta : 0.0);
+      if (!s) continue;
+      ASSERT_TRUE(s->pdf > 0.0f && std::isfinite(s->pdf));
+      if (s->eta != 1.0f) {
+        ASSERT_LT(glm::length(s->wi + wo), 3e-3f);
+      }
+    }
+    EXPECT_NEAR(mean.mean(), 1.0, 2e-3) << cos_theta;
+  }
+}
+
 TEST(RoughBsdf, TinyRoughnessIsTheSmoothMaterial) {
   const Microfacets tiny(MicrofacetType::kBeckmann, 0.0f, 0.0f);
   const RoughDielectricBsdf rough(tiny, 1.5f, grey(1.0f), grey(1.0f));

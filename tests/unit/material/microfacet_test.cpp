@@ -54,7 +54,7 @@ TEST_P(MicrofacetLaw, ProjectedFacetAreaIsTheSurfaceArea) {
 }
 
 TEST_P(MicrofacetLaw, VisibleFacetsCoverTheProjectedSurface) {
-  // Heitz 2014, eq. 16: what is visible of all facets adds up to the surface seen from wo.
+  // Heitz 2014, section 3: what is visible of all facets adds up to the surface seen from wo.
   const float alpha = std::sqrt(GetParam().u * GetParam().v);
   for (const float cos_theta : {1.0f, 0.6f, 0.2f}) {
     const Vec3 wo = direction(cos_theta, 0.4f);
