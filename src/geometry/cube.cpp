@@ -60,8 +60,7 @@ float Cube::area() const {
   return static_cast<float>(sum);
 }
 
-std::optional<Crossing> Cube::intersect(const PreciseRay& ray, std::uint32_t /*piece*/,
-                                        double t_max) const {
+std::optional<Crossing> Cube::intersect(const PreciseRay& ray, double t_max) const {
   const Vec3d o = to_local_ * (ray.o - center_), d = to_local_ * ray.d;
   double t_enter = -std::numeric_limits<double>::infinity();
   double t_leave = std::numeric_limits<double>::infinity();
@@ -87,7 +86,7 @@ std::optional<Crossing> Cube::intersect(const PreciseRay& ray, std::uint32_t /*p
   const bool enters = t_enter > 0.0;
   const double t = enters ? t_enter : t_leave;
   if (!(t > 0.0 && t <= t_max)) return std::nullopt;
-  return Crossing{.t = t, .face = enters ? side_enter : side_leave};
+  return Crossing{.t = t, .face = enters ? side_enter : side_leave, .xy{}};
 }
 
 Hit Cube::hit(const PreciseRay& ray, const Crossing& crossing) const {

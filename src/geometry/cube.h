@@ -18,8 +18,7 @@ class Cube final : public Shape {
   bool is_closed() const override { return true; }
   std::optional<ShapeSample> sample_toward(const Vec3& from, const Vec2& u) const override;
   float pdf_toward(const Vec3& from, const Hit& hit) const override;
-  std::optional<Crossing> intersect(const PreciseRay& ray, std::uint32_t piece,
-                                    double t_max) const override;
+  std::optional<Crossing> intersect(const PreciseRay& ray, double t_max) const override;
   Hit hit(const PreciseRay& ray, const Crossing& crossing) const override;
 
  private:

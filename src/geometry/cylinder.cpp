@@ -37,14 +37,14 @@ Box3 Cylinder::bounds() const {
   return rounded_outward(glm::min(base_, top) - reach, glm::max(base_, top) + reach);
 }
 
-std::optional<Crossing> Cylinder::intersect(const PreciseRay& ray, std::uint32_t /*piece*/,
-                                            double t_max) const {
+std::optional<Crossing> Cylinder::intersect(const PreciseRay& ray, double t_max) const {
   const Vec3d o = to_local(ray.o - base_), d = to_local(ray.d);
   const auto crossings = crossings_of_ball(Vec2d(o), Vec2d(d), radius_);
   if (!crossings) return std::nullopt;
   for (const double t : {crossings->first, crossings->second}) {
     const double z = o.z + t * d.z;
-    if (t > 0.0 && t <= t_max && z >= 0.0 && z <= length_) return Crossing{.t = t, .face = 0};
+    if (t > 0.0 && t <= t_max && z >= 0.0 && z <= length_)
+      return Crossing{.t = t, .face = 0, .xy{}};
   }
   return std::nullopt;
 }
@@ -62,7 +62,7 @@ Hit Cylinder::hit(const PreciseRay& ray, const Crossing& crossing) const {
           .error = error,
           .n = n,
           .n_shading = n,
-          .dp_du = Vec3(radial.x * axes_[1] - radial.y * axes_[0]),
+          .dp_du = Vec3(2.0 * M_PI * radius_ * (radial.x * axes_[1] - radial.y * axes_[0])),
           .uv = Vec2((azimuth < 0.0 ? azimuth + 2.0 * M_PI : azimuth) / (2.0 * M_PI),
                      local.z / length_),
           .shape = 0};

@@ -17,15 +17,14 @@ Box3 Disk::bounds() const {
   return rounded_outward(patch_.center - reach, patch_.center + reach);
 }
 
-std::optional<Crossing> Disk::intersect(const PreciseRay& ray, std::uint32_t /*piece*/,
-                                        double t_max) const {
+std::optional<Crossing> Disk::intersect(const PreciseRay& ray, double t_max) const {
   const auto crossing = patch_.intersect(ray, t_max);
   if (!crossing || !(glm::dot(crossing->xy, crossing->xy) <= 1.0)) return std::nullopt;
-  return Crossing{.t = crossing->t, .face = 0};
+  return Crossing{.t = crossing->t, .face = 0, .xy = crossing->xy};
 }
 
-Hit Disk::hit(const PreciseRay& ray, const Crossing& crossing) const {
-  const Vec2d xy = patch_.local(ray.at(crossing.t));
+Hit Disk::hit(const PreciseRay& /*ray*/, const Crossing& crossing) const {
+  const Vec2d xy = crossing.xy;
   const double r = glm::length(xy);
   const Vec2d radial = r > 0.0 ? xy / r : Vec2d(1.0, 0.0);
   const float error = surface_error(Vec3(patch_.at(xy)), patch_.n, extent_);

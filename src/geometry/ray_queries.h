@@ -10,9 +10,8 @@
 
 namespace brume {
 
-/// Asks all shapes of a scene at once, through a bounding volume hierarchy. Immutable; shared
-/// between threads. The answer depends on the shapes and the ray alone: of crossings at the same
-/// distance, that of the first shape, then of its first triangle, is the answer.
+/// Asks all shapes of a scene at once. Immutable; shared between threads. The answer depends on
+/// the shapes and the ray alone: of surfaces at the same distance the first shape answers.
 class RayQueries {
  public:
   /// At least one shape. `Hit::shape` is the index in `shapes`.
@@ -28,7 +27,7 @@ class RayQueries {
   bool is_occluded(const Ray& ray, float t_max) const;
 
  private:
-  struct Impl;
+  class Impl;
   std::unique_ptr<const Impl> impl_;
 };
 

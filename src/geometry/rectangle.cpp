@@ -17,16 +17,15 @@ Box3 Rectangle::bounds() const {
   return rounded_outward(patch_.center - reach, patch_.center + reach);
 }
 
-std::optional<Crossing> Rectangle::intersect(const PreciseRay& ray, std::uint32_t /*piece*/,
-                                             double t_max) const {
+std::optional<Crossing> Rectangle::intersect(const PreciseRay& ray, double t_max) const {
   const auto crossing = patch_.intersect(ray, t_max);
   if (!crossing || !(std::abs(crossing->xy.x) <= 1.0 && std::abs(crossing->xy.y) <= 1.0))
     return std::nullopt;
-  return Crossing{.t = crossing->t, .face = 0};
+  return Crossing{.t = crossing->t, .face = 0, .xy = crossing->xy};
 }
 
-Hit Rectangle::hit(const PreciseRay& ray, const Crossing& crossing) const {
-  const Vec2d xy = glm::clamp(patch_.local(ray.at(crossing.t)), -1.0, 1.0);
+Hit Rectangle::hit(const PreciseRay& /*ray*/, const Crossing& crossing) const {
+  const Vec2d xy = crossing.xy;
   const float error = surface_error(Vec3(patch_.at(xy)), patch_.n, extent_);
   const Vec2d margin = glm::min(
       kEdgeMargin * error * Vec2d(glm::length(patch_.a_dual), glm::length(patch_.b_dual)), 1.0);

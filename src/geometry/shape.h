@@ -5,6 +5,7 @@
 
 #include "core/box.h"
 #include "core/vec.h"
+#include "geometry/hierarchy.h"
 #include "geometry/hit.h"
 #include "geometry/precise.h"
 
@@ -16,12 +17,6 @@ struct ShapeSample {
   Vec3 n;       // unit geometric normal there, outside side
   float error;  // as `Hit::error` [unit]
   float pdf;    // solid angle seen from the reference point [1/sr]
-};
-
-/// Where a ray meets a shape, in the least data that a shape needs to say more.
-struct Crossing {
-  double t;            // along the ray [unit]
-  std::uint32_t face;  // of the shape: which triangle, which side of the cube
 };
 
 /// A surface in space. The outside is the side that its geometric normal points to.
@@ -44,12 +39,12 @@ class Shape {
   /// Density of `sample_toward` for the direction from `from` to `hit` on this shape [1/sr].
   virtual float pdf_toward(const Vec3& from, const Hit& hit) const = 0;
 
-  /// Pieces that are bounded and intersected one by one: the triangles of a mesh.
-  virtual std::uint32_t piece_count() const { return 1; }
-  virtual Box3 piece_bounds(std::uint32_t /*piece*/) const { return bounds(); }
-  /// First crossing of the ray with a piece for t in (0, t_max].
-  virtual std::optional<Crossing> intersect(const PreciseRay& ray, std::uint32_t piece,
-                                            double t_max) const = 0;
+  /// First crossing of the ray for t in (0, t_max].
+  virtual std::optional<Crossing> intersect(const PreciseRay& ray, double t_max) const = 0;
+  /// Whether there is any.
+  virtual bool occludes(const PreciseRay& ray, double t_max) const {
+    return intersect(ray, t_max).has_value();
+  }
   /// The surface where `intersect` found it; `t` and `shape` are left to the caller.
   virtual Hit hit(const PreciseRay& ray, const Crossing& crossing) const = 0;
 };

@@ -22,13 +22,12 @@ Box3 Sphere::bounds() const {
   return rounded_outward(center_ - radius_, center_ + radius_);
 }
 
-std::optional<Crossing> Sphere::intersect(const PreciseRay& ray, std::uint32_t /*piece*/,
-                                          double t_max) const {
+std::optional<Crossing> Sphere::intersect(const PreciseRay& ray, double t_max) const {
   const auto crossings = crossings_of_ball(ray.o - center_, ray.d, radius_);
   if (!crossings) return std::nullopt;
   const double t = crossings->first > 0.0 ? crossings->first : crossings->second;
   if (!(t > 0.0 && t <= t_max)) return std::nullopt;
-  return Crossing{.t = t, .face = 0};
+  return Crossing{.t = t, .face = 0, .xy{}};
 }
 
 Hit Sphere::hit(const PreciseRay& ray, const Crossing& crossing) const {
@@ -44,7 +43,7 @@ Hit Sphere::hit(const PreciseRay& ray, const Crossing& crossing) const {
           .error = surface_error(p, n, 2.0 * radius_),
           .n = n,
           .n_shading = n,
-          .dp_du = orientation_ * Vec3(-local.y, local.x, 0.0f),
+          .dp_du = orientation_ * Vec3(-local.y, local.x, 0.0f) * float(2.0 * M_PI * radius_),
           .uv = Vec2((azimuth < 0.0f ? azimuth + 2.0f * kPi : azimuth) / (2.0f * kPi), angle / kPi),
           .shape = 0};
 }

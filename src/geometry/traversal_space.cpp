@@ -6,39 +6,36 @@
 
 namespace brume {
 
-TraversalSpace::TraversalSpace(const Box3& scene)
-    : center_(0.5 * (Vec3d(scene.min) + Vec3d(scene.max))) {
-  assert(!scene.empty());
-  const Vec3d size = Vec3d(scene.max) - Vec3d(scene.min);
-  extent_ = std::max({size.x, size.y, size.z});
-  if (extent_ > 0.0) scale_ = std::ldexp(1.0f, -std::ilogb(extent_));
-
-  // Within kReach + 1/2 extents of a center that is four times as far from 0, any coordinate is
-  // between half and twice any other.
-  for (int i = 0; i < 3; ++i)
-    if (std::abs(center_[i]) > 4.0 * (kReach + 0.5) * extent_)
-      shift_[i] = static_cast<float>(center_[i]);
+TraversalSpace::TraversalSpace(const Box3& world)
+    : center_(0.5 * (Vec3d(world.min) + Vec3d(world.max))) {
+  assert(!world.empty());
+  const Vec3d size = Vec3d(world.max) - Vec3d(world.min);
+  const double extent = std::max({size.x, size.y, size.z});
+  if (extent > 0.0) scale_ = 1.0 / extent;
 }
 
-std::optional<TraversalSpace::NearRay> TraversalSpace::near(const Ray& ray) const {
-  const Vec3d o = Vec3d(ray.o) - center_;
-  const double reach = kReach * extent_;
-  if (std::max({std::abs(o.x), std::abs(o.y), std::abs(o.z)}) <= reach)
-    return NearRay{.ray = ray, .t = 0.0};
+Box3 TraversalSpace::box(const Box3& world) const {
+  return rounded_outward(scale_ * (Vec3d(world.min) - center_) - kPadding,
+                         scale_ * (Vec3d(world.max) - center_) + kPadding);
+}
 
-  const Vec3d d(ray.d);
+std::optional<TraversalSpace::LocalRay> TraversalSpace::ray(const PreciseRay& world) const {
+  const Vec3d o = scale_ * (world.o - center_);
+  if (std::max({std::abs(o.x), std::abs(o.y), std::abs(o.z)}) <= kReach)
+    return LocalRay{.o = Vec3(o), .start = 0.0};
+
   double t_enter = 0.0, t_leave = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i) {
-    if (d[i] == 0.0) {
-      if (std::abs(o[i]) > reach) return std::nullopt;
+    if (world.d[i] == 0.0) {
+      if (std::abs(o[i]) > kReach) return std::nullopt;
       continue;
     }
-    const double t0 = (-reach - o[i]) / d[i], t1 = (reach - o[i]) / d[i];
+    const double t0 = (-kReach - o[i]) / world.d[i], t1 = (kReach - o[i]) / world.d[i];
     t_enter = std::max(t_enter, std::min(t0, t1));
     t_leave = std::min(t_leave, std::max(t0, t1));
   }
   if (t_enter > t_leave) return std::nullopt;
-  return NearRay{.ray = {.o = Vec3(Vec3d(ray.o) + t_enter * d), .d = ray.d}, .t = t_enter};
+  return LocalRay{.o = Vec3(o + t_enter * world.d), .start = t_enter / scale_};
 }
 
 }  // namespace brume

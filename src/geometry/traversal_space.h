@@ -4,44 +4,44 @@
 #include <optional>
 
 #include "core/box.h"
-#include "core/ray.h"
 #include "geometry/precise.h"
 
 namespace brume {
 
-/// Coordinates in which the scene is about one unit wide and near the origin. The hierarchy is
-/// walked there in float, which overflows for scenes 1e13 wide and loses the digits of a scene
-/// far from the origin.
+/// Coordinates in which a hierarchy of boxes is one unit wide and centered, and rays start near
+/// it. The hierarchy is walked there in float, which in the world would overflow for scenes 1e13
+/// wide, and would lose the digits of small things far from the origin.
 ///
-/// Both steps are exact. The scale is a power of two. A coordinate is shifted only if the scene is
-/// so far away in it that the difference of any two values near the scene has no rounding error
-/// (Sterbenz 1974), and elsewhere not at all. So a box contains here what it contains there.
+/// A ray finds here every box that it meets in the world. Rays start within `kReach` = 2 of the
+/// center. Placing the origin in float moves the ray by 2^-24 kReach; a slab test that computes
+/// lower / d - o / d with a reciprocal accurate to two units in the last place errs by
+/// 2^-24 (1/2 + kReach + 3 (1/2 + kReach)) in space. Boxes are padded by more than the sum.
 class TraversalSpace {
  public:
-  explicit TraversalSpace(const Box3& scene);
+  /// `world` is the box around everything.
+  explicit TraversalSpace(const Box3& world);
 
-  Vec3 from_world(const Vec3& p) const { return (p - shift_) * scale_; }
-  Box3 from_world(const Box3& box) const { return {from_world(box.min), from_world(box.max)}; }
-  /// Not less than the exact value.
-  float from_world(double distance) const {
-    return std::nextafter(static_cast<float>(distance * scale_), kInfinity);
+  /// Padded.
+  Box3 box(const Box3& world) const;
+
+  struct LocalRay {
+    Vec3 o;        // [1], with the direction of the ray in the world
+    double start;  // distance of `o` from the origin of the ray [unit]
+  };
+  /// The ray from where it comes near; nothing when it stays away.
+  std::optional<LocalRay> ray(const PreciseRay& world) const;
+
+  /// Distance from a local origin, not less than the exact value.
+  float distance(double world) const {
+    return std::nextafter(static_cast<float>(world * scale_), kInfinity);
   }
 
-  /// The ray from where it comes near the scene: exactly the given one when its origin is near,
-  /// otherwise one whose origin is rounded there to float. Nothing when it stays away.
-  struct NearRay {
-    Ray ray;   // in the world
-    double t;  // of its origin along the given ray [unit]
-  };
-  std::optional<NearRay> near(const Ray& ray) const;
-
  private:
-  static constexpr double kReach = 2.0;  // half width of "near", in extents of the scene
+  static constexpr double kReach = 2.0;
+  static constexpr double kPadding = 0x1p-19;
 
-  Vec3d center_;
-  double extent_;  // largest of the scene [unit]
-  Vec3 shift_{0.0f};
-  float scale_ = 1.0f;
+  Vec3d center_;        // [unit]
+  double scale_ = 1.0;  // [1/unit]
 };
 
 }  // namespace brume

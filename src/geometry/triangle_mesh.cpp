@@ -71,14 +71,11 @@ TriangleMesh::TriangleMesh(MeshData data, const glm::dmat4& to_world, bool face_
   if (has_normals && agreement_of_normals(data_) < 0.0) turn_inside_out(data_.indices);
   if (!has_normals && !face_normals) data_.normals = smooth_normals(data_);
 
-  for (std::uint32_t i = 0; i < piece_count(); ++i) {
-    bounds_.extend(piece_bounds(i));
+  for (std::uint32_t i = 0; i < triangle_count(); ++i) {
+    bounds_.extend(triangles_.bounds(i));
     area_ += 0.5 * glm::length(corners(i).cross());
   }
-}
-
-std::uint32_t TriangleMesh::piece_count() const {
-  return static_cast<std::uint32_t>(data_.indices.size() / 3);
+  hierarchy_.emplace(triangles_);
 }
 
 TriangleMesh::Corners TriangleMesh::corners(std::uint32_t triangle) const {
@@ -91,49 +88,53 @@ std::array<double, 3> TriangleMesh::Corners::edge_lengths() const {
   return {glm::length(p[2] - p[1]), glm::length(p[0] - p[2]), glm::length(p[1] - p[0])};
 }
 
-Box3 TriangleMesh::piece_bounds(std::uint32_t piece) const {
+Box3 TriangleMesh::Triangles::bounds(std::uint32_t triangle) const {
   Box3 box;
   for (std::size_t corner = 0; corner < 3; ++corner)
-    box.extend(data_.positions[data_.indices[3 * std::size_t(piece) + corner]]);
+    box.extend(mesh_.data_.positions[mesh_.data_.indices[3 * std::size_t(triangle) + corner]]);
   return box;
 }
 
-namespace {
+std::optional<Crossing> TriangleMesh::Triangles::intersect(std::uint32_t triangle,
+                                                           const PreciseRay& ray,
+                                                           double t_max) const {
+  const Corners c = mesh_.corners(triangle);
+  // Volumes of the ray direction with the edges, each the weight of the opposite corner but for a
+  // common factor (Woop et al. 2013). Two triangles compute exactly opposite values for a shared
+  // edge, so that a ray through it meets at least one of them.
+  const Vec3d p0 = c.p[0] - ray.o, p1 = c.p[1] - ray.o, p2 = c.p[2] - ray.o;
+  const double v0 = glm::dot(ray.d, glm::cross(p1, p2));
+  const double v1 = glm::dot(ray.d, glm::cross(p2, p0));
+  const double v2 = glm::dot(ray.d, glm::cross(p0, p1));
+  if (std::min({v0, v1, v2}) < 0.0 && std::max({v0, v1, v2}) > 0.0) return std::nullopt;
 
-/// Volumes of the ray direction with the edges seen from its origin, each the weight of the
-/// opposite corner but for a common factor (Woop et al. 2013). Two triangles compute exactly
-/// opposite values for a shared edge, so that a ray through it meets at least one of them.
-Vec3d edge_volumes(const PreciseRay& ray, const std::array<Vec3d, 3>& p) {
-  const Vec3d a = p[0] - ray.o, b = p[1] - ray.o, c = p[2] - ray.o;
-  return {glm::dot(ray.d, glm::cross(b, c)), glm::dot(ray.d, glm::cross(c, a)),
-          glm::dot(ray.d, glm::cross(a, b))};
-}
-
-}  // namespace
-
-std::optional<Crossing> TriangleMesh::intersect(const PreciseRay& ray, std::uint32_t piece,
-                                                double t_max) const {
-  const Corners c = corners(piece);
-  const Vec3d volumes = edge_volumes(ray, c.p);
-  if (std::min({volumes.x, volumes.y, volumes.z}) < 0.0 &&
-      std::max({volumes.x, volumes.y, volumes.z}) > 0.0)
-    return std::nullopt;
   // From the plane rather than from the weights: then the sign tells the side of the plane that
   // the origin is on.
   const Vec3d cross = c.cross();
-  const double t = glm::dot(cross, c.p[0] - ray.o) / glm::dot(cross, ray.d);
+  const double t = glm::dot(cross, p0) / glm::dot(cross, ray.d);
   if (!(t > 0.0 && t <= t_max)) return std::nullopt;
-  return Crossing{.t = t, .face = piece};
+
+  const double sum = v0 + v1 + v2;
+  if (sum == 0.0) return std::nullopt;  // edge on
+  return Crossing{.t = t, .face = triangle, .xy = {v1 / sum, v2 / sum}};
 }
 
-Hit TriangleMesh::hit(const PreciseRay& ray, const Crossing& crossing) const {
+std::optional<Crossing> TriangleMesh::intersect(const PreciseRay& ray, double t_max) const {
+  const auto found = hierarchy_->nearest(ray, t_max);
+  if (!found) return std::nullopt;
+  Crossing crossing = found->crossing;
+  crossing.t += found->start;
+  return crossing;
+}
+
+bool TriangleMesh::occludes(const PreciseRay& ray, double t_max) const {
+  return hierarchy_->is_occluded(ray, t_max);
+}
+
+Hit TriangleMesh::hit(const PreciseRay& /*ray*/, const Crossing& crossing) const {
   const std::uint32_t triangle = crossing.face;
   const Corners c = corners(triangle);
-  const Vec3d volumes = edge_volumes(ray, c.p);
-  const double sum = volumes.x + volumes.y + volumes.z;
-  // Edge on, rounding may leave no volume at all.
-  const Vec3d weights = sum != 0.0 ? volumes / sum : Vec3d(1.0 / 3.0);
-
+  const Vec3d weights(1.0 - crossing.xy.x - crossing.xy.y, crossing.xy);
   const Vec3d cross = c.cross();
   const Vec3 n = outside(cross);
   const auto point = [&](const Vec3d& b) {
@@ -186,8 +187,8 @@ Vec2 TriangleMesh::uv(std::uint32_t triangle, const Vec3d& weights) const {
 
 const Distribution1d& TriangleMesh::triangles_by_area() const {
   std::call_once(triangles_by_area_once_, [this] {
-    std::vector<float> weights(piece_count());
-    for (std::uint32_t i = 0; i < piece_count(); ++i)
+    std::vector<float> weights(triangle_count());
+    for (std::uint32_t i = 0; i < triangle_count(); ++i)
       weights[i] = static_cast<float>(0.5 * glm::length(corners(i).cross()) / area_);
     triangles_by_area_ = std::make_unique<const Distribution1d>(weights);
   });

@@ -30,13 +30,27 @@ class TriangleMesh final : public Shape {
   std::optional<ShapeSample> sample_toward(const Vec3& from, const Vec2& u) const override;
   float pdf_toward(const Vec3& from, const Hit& hit) const override;
 
-  std::uint32_t piece_count() const override;
-  Box3 piece_bounds(std::uint32_t piece) const override;
-  std::optional<Crossing> intersect(const PreciseRay& ray, std::uint32_t piece,
-                                    double t_max) const override;
+  std::optional<Crossing> intersect(const PreciseRay& ray, double t_max) const override;
+  bool occludes(const PreciseRay& ray, double t_max) const override;
   Hit hit(const PreciseRay& ray, const Crossing& crossing) const override;
 
  private:
+  /// The triangles, for the hierarchy.
+  class Triangles final : public Hierarchy::Items {
+   public:
+    explicit Triangles(const TriangleMesh& mesh) : mesh_(mesh) {}
+    std::uint32_t count() const override { return mesh_.triangle_count(); }
+    Box3 bounds(std::uint32_t triangle) const override;
+    std::optional<Crossing> intersect(std::uint32_t triangle, const PreciseRay& ray,
+                                      double t_max) const override;
+    bool occludes(std::uint32_t triangle, const PreciseRay& ray, double t_max) const override {
+      return intersect(triangle, ray, t_max).has_value();
+    }
+
+   private:
+    const TriangleMesh& mesh_;
+  };
+
   /// Corners of a triangle in double, exact.
   struct Corners {
     std::array<Vec3d, 3> p;  // [unit]
@@ -45,6 +59,9 @@ class TriangleMesh final : public Shape {
     std::array<double, 3> edge_lengths() const;  // each opposite to its corner [unit]
   };
   Corners corners(std::uint32_t triangle) const;
+  std::uint32_t triangle_count() const {
+    return static_cast<std::uint32_t>(data_.indices.size() / 3);
+  }
 
   Vec3 outside(const Vec3d& cross) const {
     return Vec3(glm::normalize(cross)) * (flip_normals_ ? -1.0f : 1.0f);
@@ -59,6 +76,8 @@ class TriangleMesh final : public Shape {
   bool flip_normals_;
   Box3 bounds_;
   double area_ = 0.0;  // [unit^2]
+  Triangles triangles_{*this};
+  std::optional<Hierarchy> hierarchy_;  // set on construction, when the triangles are in place
 
   // Only meshes that emit need it.
   mutable std::once_flag triangles_by_area_once_;

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geometry/hierarchy.h"
+
+#include <embree3/rtcore.h>
+
+#include <cassert>
+#include <mutex>
+#include <string>
+#include <tuple>
+
+#include "core/error.h"
+#include "geometry/traversal_space.h"
+
+namespace brume {
+namespace {
+
+[[noreturn]] void fail(RTCError code) {
+  const std::string reason =
+      code == RTC_ERROR_OUT_OF_MEMORY ? "out of memory" : "Embree error " + std::to_string(code);
+  throw Error("cannot build the ray tracing structure: " + reason, ErrorKind::kEnvironment);
+}
+
+/// One device for all hierarchies, for as long as there are any.
+std::shared_ptr<RTCDeviceTy> shared_device() {
+  static std::mutex mutex;
+  static std::weak_ptr<RTCDeviceTy> existing;
+  const std::lock_guard lock(mutex);
+  if (auto device = existing.lock()) return device;
+  const RTCDevice created = rtcNewDevice(nullptr);
+  if (created == nullptr) fail(rtcGetDeviceError(nullptr));
+  std::shared_ptr<RTCDeviceTy> device(created, rtcReleaseDevice);
+  existing = device;
+  return device;
+}
+
+/// What the Embree geometry points to.
+struct Geometry {
+  const Hierarchy::Items& items;
+  TraversalSpace space;
+};
+
+/// A ray on its way. Embree hands the context through to the callbacks, and the rest with it:
+/// Embree knows the ray in float only.
+struct Query {
+  RTCIntersectContext context;  // first, so that its address is that of the query
+  PreciseRay ray;               // near the items
+  double t_max;                 // crossings count in (0, t_max] along `ray` [unit]
+  std::optional<Crossing> nearest{};
+  std::uint32_t item = 0;  // of `nearest`
+
+  Query(const PreciseRay& r, double t) : ray(r), t_max(t) { rtcInitIntersectContext(&context); }
+};
+
+const Geometry& geometry_of(void* pointer) {
+  return *static_cast<const Geometry*>(pointer);
+}
+Query& query_of(RTCIntersectContext* context) {
+  return *reinterpret_cast<Query*>(context);
+}
+
+void bound_item(const RTCBoundsFunctionArguments* args) {
+  const Geometry& geometry = geometry_of(args->geometryUserPtr);
+  const Box3 box = geometry.space.box(geometry.items.bounds(args->primID));
+  *args->bounds_o = {.lower_x = box.min.x,
+                     .lower_y = box.min.y,
+                     .lower_z = box.min.z,
+                     .align0 = 0.0f,
+                     .upper_x = box.max.x,
+                     .upper_y = box.max.y,
+                     .upper_z = box.max.z,
+                     .align1 = 0.0f};
+}
+
+void intersect_item(const RTCIntersectFunctionNArguments* args) {
+  assert(args->N == 1);
+  if (args->valid[0] == 0) return;
+  const Geometry& geometry = geometry_of(args->geometryUserPtr);
+  Query& query = query_of(args->context);
+  const std::optional<Crossing> found =
+      geometry.items.intersect(args->primID, query.ray, query.t_max);
+  if (!found) return;
+  if (query.nearest && std::tie(query.nearest->t, query.item) < std::tie(found->t, args->primID))
+    return;
+  query.nearest = found;
+  query.item = args->primID;
+  query.t_max = found->t;
+  reinterpret_cast<RTCRayHit*>(args->rayhit)->ray.tfar = geometry.space.distance(found->t);
+}
+
+void occlude_item(const RTCOccludedFunctionNArguments* args) {
+  assert(args->N == 1);
+  if (args->valid[0] == 0) return;
+  const Query& query = query_of(args->context);
+  if (geometry_of(args->geometryUserPtr).items.occludes(args->primID, query.ray, query.t_max))
+    reinterpret_cast<RTCRay*>(args->ray)->tfar = -kInfinity;
+}
+
+Box3 bounds_of(const Hierarchy::Items& items) {
+  Box3 box;
+  for (std::uint32_t i = 0; i < items.count(); ++i) box.extend(items.bounds(i));
+  return box;
+}
+
+RTCRay embree_ray(const Vec3& o, const Vec3d& d, float t_far) {
+  return {.org_x = o.x,
+          .org_y = o.y,
+          .org_z = o.z,
+          .tnear = 0.0f,
+          .dir_x = static_cast<float>(d.x),
+          .dir_y = static_cast<float>(d.y),
+          .dir_z = static_cast<float>(d.z),
+          .time = 0.0f,
+          .tfar = t_far,
+          .mask = ~0u,
+          .id = 0,
+          .flags = 0};
+}
+
+}  // namespace
+
+struct Hierarchy::Impl {
+  Geometry geometry;
+  std::shared_ptr<RTCDeviceTy> device = shared_device();
+  std::unique_ptr<RTCSceneTy, decltype(&rtcReleaseScene)> scene{rtcNewScene(device.get()),
+                                                                rtcReleaseScene};
+
+  explicit Impl(const Items& items) : geometry{items, TraversalSpace(bounds_of(items))} {
+    const RTCGeometry user = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(user, items.count());
+    rtcSetGeometryUserData(user, &geometry);
+    rtcSetGeometryBoundsFunction(user, bound_item, nullptr);
+    rtcSetGeometryIntersectFunction(user, intersect_item);
+    rtcSetGeometryOccludedFunction(user, occlude_item);
+    rtcCommitGeometry(user);
+    rtcAttachGeometry(scene.get(), user);
+    rtcReleaseGeometry(user);
+    rtcCommitScene(scene.get());
+    if (const RTCError error = rtcGetDeviceError(device.get()); error != RTC_ERROR_NONE)
+      fail(error);
+  }
+};
+
+Hierarchy::Hierarchy(const Items& items) : impl_(std::make_unique<const Impl>(items)) {}
+Hierarchy::~Hierarchy() = default;
+
+std::optional<Hierarchy::Found> Hierarchy::nearest(const PreciseRay& ray, double t_max) const {
+  const TraversalSpace& space = impl_->geometry.space;
+  const auto local = space.ray(ray);
+  if (!local || !(local->start < t_max)) return std::nullopt;
+  Query query({.o = ray.at(local->start), .d = ray.d}, t_max - local->start);
+  RTCRayHit embree{};
+  embree.ray = embree_ray(local->o, ray.d, space.distance(query.t_max));
+  embree.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(impl_->scene.get(), &query.context, &embree);
+  if (!query.nearest) return std::nullopt;
+  return Found{
+      .item = query.item, .ray = query.ray, .start = local->start, .crossing = *query.nearest};
+}
+
+bool Hierarchy::is_occluded(const PreciseRay& ray, double t_max) const {
+  const TraversalSpace& space = impl_->geometry.space;
+  const auto local = space.ray(ray);
+  if (!local || !(local->start < t_max)) return false;
+  Query query({.o = ray.at(local->start), .d = ray.d}, t_max - local->start);
+  RTCRay embree = embree_ray(local->o, ray.d, space.distance(query.t_max));
+  rtcOccluded1(impl_->scene.get(), &query.context, &embree);
+  return embree.tfar < 0.0f;
+}
+
+}  // namespace brume

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "core/box.h"
+#include "geometry/precise.h"
+
+namespace brume {
+
+/// Where a ray meets a shape, in the least data that a shape needs to say more.
+struct Crossing {
+  double t;            // along the ray [unit]
+  std::uint32_t face;  // of the shape: which triangle, which side of the cube
+  Vec2d xy;            // place on the face, in coordinates of the shape's own
+};
+
+/// Bounding volume hierarchy: finds the items that a ray may meet. Immutable; shared between
+/// threads.
+///
+/// Embree builds and walks it, and asks the items themselves for crossings, in double. Its own
+/// triangles are tested in float: they report hits that do not exist for rays near the plane of a
+/// triangle (RenderKit/embree, issue 387), and on the triangle that a ray has just left.
+class Hierarchy {
+ public:
+  class Items {
+   public:
+    virtual ~Items() = default;
+
+    /// At least 1.
+    virtual std::uint32_t count() const = 0;
+    virtual Box3 bounds(std::uint32_t item) const = 0;
+    /// First crossing for t in (0, t_max].
+    virtual std::optional<Crossing> intersect(std::uint32_t item, const PreciseRay& ray,
+                                              double t_max) const = 0;
+    /// Whether there is any.
+    virtual bool occludes(std::uint32_t item, const PreciseRay& ray, double t_max) const = 0;
+  };
+
+  /// `items` must outlive the hierarchy.
+  explicit Hierarchy(const Items& items);
+  ~Hierarchy();
+
+  struct Found {
+    std::uint32_t item;
+    PreciseRay ray;     // from where the given one comes near: there, differences have more digits
+    double start;       // distance of its origin from the given one [unit]
+    Crossing crossing;  // along `ray`
+  };
+  /// First crossing for t in (0, t_max]; of several at the same distance, that of the first item,
+  /// so that it does not matter how the hierarchy was built.
+  std::optional<Found> nearest(const PreciseRay& ray, double t_max) const;
+  bool is_occluded(const PreciseRay& ray, double t_max) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<const Impl> impl_;
+};
+
+}  // namespace brume

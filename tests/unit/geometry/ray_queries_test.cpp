@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geometry/ray_queries.h"
+
+#include <gtest/gtest.h>
+
+#include "core/rng.h"
+#include "shapes.h"
+
+namespace brume {
+namespace {
+
+TEST(RayQueries, FindsTheNearestShapeWithinTheSegment) {
+  const std::vector<test::ShapePtr> shapes{
+      std::make_shared<Sphere>(Vec3(0, 0, 10), 1.0f, false),
+      std::make_shared<Sphere>(Vec3(0, 0, 5), 1.0f, false),
+  };
+  const RayQueries queries(shapes);
+  const Ray ray{{0, 0, 0}, {0, 0, 1}};
+  EXPECT_EQ(queries.intersect(ray, kInfinity)->shape, 1u);
+  EXPECT_EQ(queries.intersect(ray, kInfinity)->t, 4.0f);
+  EXPECT_FALSE(queries.intersect(ray, 4.0f));
+  EXPECT_FALSE(queries.is_occluded(ray, 4.0f));
+  EXPECT_TRUE(queries.intersect(ray, 4.000001f));
+  EXPECT_TRUE(queries.is_occluded(ray, 4.000001f));
+  EXPECT_EQ(queries.intersect({{0, 0, 7}, {0, 0, 1}}, kInfinity)->shape, 0u);
+  EXPECT_FALSE(queries.intersect({{0, 0, 12}, {0, 0, 1}}, kInfinity));
+}
+
+TEST(RayQueries, TheFirstOfCoincidentSurfacesAnswers) {
+  const auto rectangle = std::make_shared<Rectangle>(glm::dmat4(1.0), false);
+  const auto disk = std::make_shared<Disk>(glm::dmat4(1.0), false);
+  for (const std::vector<test::ShapePtr>& shapes :
+       {std::vector<test::ShapePtr>{rectangle, disk, rectangle},
+        std::vector<test::ShapePtr>{disk, rectangle, disk}}) {
+    const RayQueries queries(shapes);
+    Rng rng(1);
+    for (int i = 0; i < 1000; ++i) {
+      const Vec2 xy = 0.7f * sample_disk(rng.next_vec2());
+      EXPECT_EQ(queries.intersect({{xy.x, xy.y, 3.0f}, {0, 0, -1}}, kInfinity)->shape, 0u);
+    }
+  }
+}
+
+TEST(RayQueries, DistanceIsRightToFloatPrecisionWhereThePointIsNot) {
+  // A slab a millionth thick, far from the origin in its own plane.
+  constexpr float kThickness = 1e-6f;
+  glm::dmat4 lower(1.0), upper(1.0);
+  lower[3] = glm::dvec4(5000.0, 3000.0, 0.0, 1.0);
+  upper[3] = glm::dvec4(5000.0, 3000.0, kThickness, 1.0);
+  const RayQueries queries(std::vector<test::ShapePtr>{std::make_shared<Rectangle>(lower, false),
+                                                       std::make_shared<Rectangle>(upper, false)});
+  Rng rng(2);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec2 xy = 0.9f * sample_disk(rng.next_vec2());
+    const Vec3 d = sample_cosine_hemisphere(rng.next_vec2());
+    if (d.z < 0.01f) continue;
+    const Ray ray{{5000.0f + xy.x, 3000.0f + xy.y, 0.25f * kThickness}, d};
+    const std::optional<Hit> hit = queries.intersect(ray, kInfinity);
+    ASSERT_TRUE(hit);
+    EXPECT_EQ(hit->shape, 1u);
+    EXPECT_NEAR(hit->t, 0.75f * kThickness / d.z, 2e-7f * hit->t);
+  }
+}
+
+TEST(RayQueries, SeesSmallThingsInWideScenes) {
+  // A thousandth of a unit, beside a floor a million units wide.
+  const std::vector<test::ShapePtr> shapes{
+      std::make_shared<Rectangle>(test::placed(1e6, Vec3d(0.0, 0.0, -3e6)), false),
+      std::make_shared<TriangleMesh>(test::sphere_mesh(3), test::placed(1e-3, Vec3d(0.0)), false,
+                                     false),
+      std::make_shared<Sphere>(Vec3(1.0f, 0.0f, 0.0f), 1e-3f, false),
+  };
+  const RayQueries queries(shapes);
+  Rng rng(3);
+  for (int i = 0; i < 10000; ++i) {
+    for (const float x : {0.0f, 1.0f}) {
+      const Vec3 from = Vec3(x, 0, 0) + 0.01f * sample_uniform_sphere(rng.next_vec2());
+      const Vec3 to = Vec3(x, 0, 0) + 0.0006f * sample_uniform_sphere(rng.next_vec2());
+      const std::optional<Hit> hit =
+          queries.intersect({from, glm::normalize(to - from)}, kInfinity);
+      ASSERT_TRUE(hit);
+      ASSERT_EQ(hit->shape, x == 0.0f ? 1u : 2u);
+      ASSERT_LE(glm::length(hit->p - Vec3(x, 0, 0)), 1.001e-3f);
+    }
+  }
+}
+
+TEST(RayQueries, SeesThingsFromFarAway) {
+  Rng rng(4);
+  for (const float distance : {10.0f, 1e4f, 1e8f, 1e15f}) {
+    for (const test::ShapePtr& shape : std::vector<test::ShapePtr>{
+             std::make_shared<Sphere>(Vec3(0.0f, 0.0f, 0.0f), 1.0f, false),
+             std::make_shared<TriangleMesh>(test::sphere_mesh(4), glm::dmat4(1.0), false, false),
+             std::make_shared<Cube>(glm::dmat4(0.6), false)}) {
+      const RayQueries queries = test::queries(shape);
+      for (int i = 0; i < 1000; ++i) {
+        const Vec2 xy = 0.5f * sample_disk(rng.next_vec2());
+        const std::optional<Hit> hit =
+            queries.intersect({{xy.x, xy.y, distance}, {0, 0, -1}}, kInfinity);
+        ASSERT_TRUE(hit);
+        EXPECT_NEAR(hit->t, distance - hit->p.z, 2e-7f * distance);
+        EXPECT_NEAR(hit->p.x, xy.x, 1e-6f);
+        EXPECT_NEAR(hit->p.y, xy.y, 1e-6f);
+      }
+    }
+  }
+}
+
+TEST(RayQueries, MovesWithItsOwner) {
+  RayQueries queries = test::queries(std::make_shared<Sphere>(Vec3(0, 0, 5), 1.0f, false));
+  RayQueries moved = std::move(queries);
+  EXPECT_TRUE(moved.is_occluded({{0, 0, 0}, {0, 0, 1}}, kInfinity));
+}
+
+}  // namespace
+}  // namespace brume
