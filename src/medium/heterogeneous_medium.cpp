@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "medium/heterogeneous_medium.h"
 
+#include <fmt/format.h>
+
 #include <cassert>
 #include <cmath>
 #include <concepts>
@@ -138,6 +140,20 @@ class HeterogeneousMedium final : public Medium {
       return false;
     });
     return Rgb(T);
+  }
+
+  MediumSummary summary() const override {
+    const glm::ivec3 voxels(density_->box().size() + 0.5f);
+    const glm::ivec3& cells = bounds_.resolution();
+    return {.description = fmt::format(
+                "grid of {} x {} x {} voxels, extinction {:g} to {:g} per unit, bounded in {} x {} "
+                "x {} cells, g {:g}",
+                voxels.x, voxels.y, voxels.z, bounds_.total().min * density_scale_,
+                bounds_.total().max * density_scale_, cells.x, cells.y, cells.z, phase_.g),
+            .scatters = bounds_.total().max > 0.0f,
+            .is_tracked = true,
+            .is_chromatic = std::is_same_v<Value, Rgb>,
+            .memory_bytes = density_->memory_bytes() + bounds_.memory_bytes()};
   }
 
  private:

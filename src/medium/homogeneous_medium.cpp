@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "medium/homogeneous_medium.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "medium/channel.h"
@@ -48,6 +50,16 @@ FreeFlight HomogeneousMedium::sample_free_flight(const Ray& /*ray*/, float t_max
 
 Rgb HomogeneousMedium::transmittance(const Ray& /*ray*/, float t_max, Rng& /*rng*/) const {
   return transmittance(t_max);
+}
+
+MediumSummary HomogeneousMedium::summary() const {
+  return {.description = fmt::format(
+              "homogeneous, sigma_t {:g} {:g} {:g} per unit, albedo {:g} {:g} {:g}, g {:g}",
+              sigma_t_.r, sigma_t_.g, sigma_t_.b, albedo_.r, albedo_.g, albedo_.b, phase_.g),
+          .scatters = !is_black(albedo_ * sigma_t_),
+          .is_tracked = false,
+          .is_chromatic = !is_grey(sigma_t_),
+          .memory_bytes = 0};
 }
 
 }  // namespace brume

@@ -26,6 +26,7 @@ class HomogeneousMedium final : public Medium {
   FreeFlight sample_free_flight(const Ray& ray, float t_max, const Rgb& beta,
                                 Sampler& sampler) const override;
   Rgb transmittance(const Ray& ray, float t_max, Rng& rng) const override;
+  MediumSummary summary() const override;
 
  private:
   Rgb sigma_t_;  // [1/unit]

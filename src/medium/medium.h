@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <string>
+
 #include "core/ray.h"
 #include "core/rgb.h"
 #include "core/rng.h"
@@ -17,6 +20,15 @@ struct FreeFlight {
   HenyeyGreenstein phase{};  // at the scattering event
 };
 
+/// What a medium asks of the renderer, for people.
+struct MediumSummary {
+  std::string description;
+  bool scatters;             // or only absorbs
+  bool is_tracked;           // by null collisions, or else in closed form
+  bool is_chromatic;         // the channels travel different distances
+  std::size_t memory_bytes;  // of volume data and bounds
+};
+
 /// A participating medium. It fills whatever its boundary encloses; where its own volume data
 /// ends, it is vacuum.
 class Medium {
@@ -30,6 +42,8 @@ class Medium {
 
   /// Unbiased estimate of exp(-int_0^t_max sigma_t dt); exact where a closed form exists.
   virtual Rgb transmittance(const Ray& ray, float t_max, Rng& rng) const = 0;
+
+  virtual MediumSummary summary() const = 0;
 };
 
 }  // namespace brume

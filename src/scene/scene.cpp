@@ -43,7 +43,8 @@ std::vector<std::shared_ptr<const AreaLight>> area_lights_of(const std::vector<S
 }  // namespace
 
 Scene::Scene(SceneParts parts)
-    : surfaces_(std::move(parts.surfaces)),
+    : requirements_(requirements_of(parts)),
+      surfaces_(std::move(parts.surfaces)),
       world_medium_(std::move(parts.world_medium)),
       area_lights_(area_lights_of(surfaces_)),
       lights_(joined(area_lights_, parts.lights), std::move(parts.environments)) {

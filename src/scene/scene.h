@@ -14,25 +14,10 @@
 #include "light/light_set.h"
 #include "material/bsdf.h"
 #include "medium/medium.h"
+#include "scene/requirements.h"
+#include "scene/scene_parts.h"
 
 namespace brume {
-
-/// A shape with everything that happens at it.
-struct Surface {
-  std::shared_ptr<const Shape> shape;
-  std::shared_ptr<const Bsdf> bsdf;
-  std::optional<Rgb> radiance{};  // emitted from the outside [W/(m^2 sr)]; none: not a light
-  bool is_boundary = false;       // whether crossing the surface changes the medium
-  std::shared_ptr<const Medium> interior{}, exterior{};  // null is vacuum; used if is_boundary
-};
-
-/// What a scene is made of, before it is put in order for rendering.
-struct SceneParts {
-  std::vector<Surface> surfaces;
-  std::vector<std::shared_ptr<const Light>> lights;  // point, spot, directional
-  std::vector<std::shared_ptr<const EnvironmentLight>> environments;
-  std::shared_ptr<const Medium> world_medium;  // outside all shapes; null is vacuum
-};
 
 /// Everything an integrator asks about the world. Immutable; shared between threads. Without
 /// surfaces no acceleration structure exists.
@@ -81,7 +66,11 @@ class Scene {
 
   const LightSet& lights() const { return lights_; }
 
+  /// What rendering needs and why, for people.
+  const std::vector<Requirement>& requirements() const { return requirements_; }
+
  private:
+  std::vector<Requirement> requirements_;
   std::vector<Surface> surfaces_;
   std::shared_ptr<const Medium> world_medium_;
   std::optional<RayQueries> queries_;

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/command_line.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+
+#include "app/version.h"
+#include "core/error.h"
+#include "io/nearest_name.h"
+
+namespace brume {
+namespace {
+
+/// The number that `text` begins with, and what follows it; nothing when it begins with none.
+std::optional<std::pair<double, std::string>> leading_number(const std::string& text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || !std::isfinite(value)) return std::nullopt;
+  return std::pair{value, std::string(end, text.data() + text.size())};
+}
+
+double parse_duration(const std::string& text) {
+  if (const auto number = leading_number(text); number && number->first > 0.0) {
+    const auto& [value, unit] = *number;
+    if (unit.empty() || unit == "s") return value;
+    if (unit == "m" || unit == "min") return 60.0 * value;
+    if (unit == "h") return 3600.0 * value;
+  }
+  throw CLI::ValidationError("--time",
+                             fmt::format("\"{}\" is no duration; write 90s, 5m or 1.5h", text));
+}
+
+glm::ivec2 parse_size(const std::string& text) {
+  glm::ivec2 size(0);
+  const char* end = text.data() + text.size();
+  const auto width = std::from_chars(text.data(), end, size.x);
+  if (width.ec == std::errc{} && width.ptr != end && (*width.ptr == 'x' || *width.ptr == 'X')) {
+    const auto height = std::from_chars(width.ptr + 1, end, size.y);
+    constexpr int kMax = 65536;
+    if (height.ec == std::errc{} && height.ptr == end && size.x > 0 && size.y > 0 &&
+        size.x <= kMax && size.y <= kMax)
+      return size;
+  }
+  throw CLI::ValidationError("--size",
+                             fmt::format("\"{}\" is no picture size; write width x height "
+                                         "in pixels, such as 1280x720",
+                                         text));
+}
+
+Rgb parse_albedo(const std::string& text) {
+  std::vector<float> values;
+  std::string rest = text;
+  while (const auto number = leading_number(rest)) {
+    values.push_back(static_cast<float>(number->first));
+    rest = number->second;
+    if (rest.empty() || rest[0] != ',') break;
+    rest.erase(0, 1);
+  }
+  const bool in_range =
+      std::all_of(values.begin(), values.end(), [](float v) { return v >= 0.0f && v <= 1.0f; });
+  if (rest.empty() && in_range && values.size() == 1) return Rgb(values[0]);
+  if (rest.empty() && in_range && values.size() == 3) return {values[0], values[1], values[2]};
+  throw CLI::ValidationError(
+      "--albedo", fmt::format("\"{}\" is no albedo; write one number in [0, 1] or three, such as "
+                              "0.9,0.95,1",
+                              text));
+}
+
+std::pair<std::string, std::string> parse_definition(const std::string& text) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos || equals == 0)
+    throw CLI::ValidationError("-D", fmt::format("\"{}\" defines nothing; write name=value", text));
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+void add_input(CLI::App& command, std::string& input, const char* description) {
+  auto* positional = command.add_option("INPUT", input, description)->required();
+  // The positional is satisfied by -s FILE too.
+  command
+      .add_option_function<std::string>(
+          "-s,--scene",
+          [&input, positional](const std::string& file) {
+            input = file;
+            positional->required(false);
+          },
+          "The same as INPUT")
+      ->trigger_on_parse();
+}
+
+void add_definitions(CLI::App& command, std::map<std::string, std::string>& definitions) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          "-D",
+          [&definitions](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts)
+              definitions.insert_or_assign(parse_definition(text).first,
+                                           parse_definition(text).second);
+          },
+          "Value of a scene parameter that the scene declares with <default>")
+      ->type_name("name=value")
+      ->allow_extra_args(false);
+}
+
+void add_render(CLI::App& app, RenderOptions& options) {
+  CLI::App& render = *app.add_subcommand("render", "Render a scene or a volume to picture files");
+  add_input(render, options.input, "Scene (.xml) or volume (.vdb, .nvdb)");
+  render
+      .add_option("-o,--output", options.outputs,
+                  "Picture to write: .exr (linear, with opacity and error layers), .png, .jpg or "
+                  ".hdr; may be repeated. Default: INPUT's name with .exr, in this folder")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+
+  const auto stop = "When to stop (the first one reached; default: the scene's sample_count)";
+  render.add_option("--spp", options.spp, "Samples a pixel")
+      ->check(CLI::Range(1u, 1u << 30))
+      ->type_name("N")
+      ->group(stop);
+  render
+      .add_option_function<std::string>(
+          "--time", [&](const std::string& text) { options.seconds = parse_duration(text); },
+          "Time to spend, loading and writing included: 90s, 5m, 1.5h")
+      ->type_name("DURATION")
+      ->group(stop);
+
+  const auto picture = "The picture";
+  render
+      .add_option_function<std::string>(
+          "--size", [&](const std::string& text) { options.size = parse_size(text); },
+          "Size in pixels instead of the scene's")
+      ->type_name("WxH")
+      ->group(picture);
+  render
+      .add_option("--exposure", options.exposure,
+                  "Brightness of .png and .jpg in stops; each doubles it")
+      ->check(CLI::Range(-100.0, 100.0))
+      ->type_name("STOPS")
+      ->group(picture);
+  render.add_option("--aov", options.layers, "More layers in .exr files: albedo, depth")
+      ->check(CLI::IsMember({"albedo", "depth"}))
+      ->delimiter(',')
+      ->type_name("LIST")
+      ->group(picture);
+  render
+      .add_option("--max-depth", options.max_depth,
+                  "Longest path: 1 is emitted light only, 2 one scattering, -1 no limit")
+      ->check(CLI::Range(-1, 1 << 30))
+      ->type_name("N")
+      ->group(picture);
+  add_definitions(render, options.definitions);
+
+  const auto volume = "A bare volume (the scene around it is made to fit and printed)";
+  render.add_option("--grid", options.grid, "Density grid by name, or name[index] of several")
+      ->type_name("NAME")
+      ->group(volume);
+  render
+      .add_option("--density-scale", options.density_scale,
+                  "Extinction per density [1/unit]; default: from the optical thickness")
+      ->check(CLI::PositiveNumber)
+      ->type_name("X")
+      ->group(volume);
+  render
+      .add_option_function<std::string>(
+          "--albedo", [&](const std::string& text) { options.albedo = parse_albedo(text); },
+          "Single-scattering albedo in [0, 1]")
+      ->type_name("R[,G,B]")
+      ->group(volume);
+  render
+      .add_option("--g", options.g, "Asymmetry of Henyey-Greenstein scattering, forward positive")
+      ->check(CLI::Range(-1.0, 1.0))
+      ->type_name("X")
+      ->group(volume);
+
+  const auto run = "The run";
+  render.add_option("--seed", options.seed, "Same seed, same bits")->type_name("N")->group(run);
+  render.add_option("--threads", options.threads, "Default: all processors; the bits are the same")
+      ->check(CLI::Range(1, 4096))
+      ->type_name("N")
+      ->group(run);
+  render.add_flag("--quiet", options.quiet, "Print nothing but warnings and errors")->group(run);
+  render.add_option("--json", options.statistics_path, "Write statistics for programs to FILE")
+      ->type_name("FILE")
+      ->group(run);
+}
+
+void add_info(CLI::App& app, InfoOptions& options) {
+  CLI::App& info = *app.add_subcommand(
+      "info", "Say what a scene or volume holds and what rendering it will require");
+  add_input(info, options.input, "Scene (.xml) or volume (.vdb, .nvdb, .vol)");
+  add_definitions(info, options.definitions);
+}
+
+/// `unknown` as the user wrote it, with the nearest option of the command that was chosen.
+std::string unknown_option_message(const CLI::App& app, const std::string& unknown) {
+  std::vector<std::string> names;
+  const auto chosen = app.get_subcommands();
+  for (const CLI::Option* option : (chosen.empty() ? &app : chosen.front())->get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  if (chosen.empty())
+    for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return fmt::format("unknown {} \"{}\"{}", unknown.starts_with("-") ? "option" : "argument",
+                     unknown, suggestion(unknown, names));
+}
+
+int report_mistake(const CLI::App& app, const CLI::ParseError& error) {
+  std::string message = error.what();
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+    auto rest = app.remaining(true);
+    message = unknown_option_message(app, rest.empty() ? "" : rest.front());
+  }
+  fmt::print(stderr, "brume: {}\nTry: brume {}--help\n", message,
+             app.get_subcommands().empty() ? "" : app.get_subcommands().front()->get_name() + " ");
+  return 2;
+}
+
+}  // namespace
+
+std::variant<RenderOptions, InfoOptions, Done> parse_command_line(int argc, char** argv) {
+  CLI::App app("brume: unbiased renderer for fog, smoke, fire and clouds", "brume");
+  app.set_version_flag("--version", std::string("brume ") + kVersion);
+  app.require_subcommand(1);
+  app.footer(
+      "Examples:\n"
+      "  brume render cloud.vdb -o cloud.png\n"
+      "  brume render fog.xml --spp 256 -o fog.exr -o fog.png\n"
+      "  brume render fog.xml --time 90s -D fog_sigma_t=0.5\n"
+      "  brume info cloud.vdb\n\n"
+      "Exit codes: 0 done; 1 could not finish; 2 wrong usage or bad input; 130 interrupted, with\n"
+      "what was rendered saved.");
+
+  RenderOptions render;
+  InfoOptions info;
+  add_render(app, render);
+  add_info(app, info);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& asked_for) {  // --help and --version
+    return Done{app.exit(asked_for)};
+  } catch (const CLI::ParseError& error) {
+    return Done{report_mistake(app, error)};
+  }
+  if (app.got_subcommand("render")) return render;
+  return info;
+}
+
+}  // namespace brume

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+
+#include "app/commands.h"
+#include "app/input.h"
+#include "app/statistics_file.h"
+#include "app/version.h"
+#include "film/develop.h"
+#include "film/write_image.h"
+#include "integrator/path_integrator.h"
+#include "render/interrupt.h"
+
+namespace brume {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+/// Outputs as asked for, or INPUT's name with .exr in the current folder.
+std::vector<std::string> output_paths(const RenderOptions& options) {
+  if (!options.outputs.empty()) return options.outputs;
+  return {std::filesystem::path(options.input).stem().string() + ".exr"};
+}
+
+RenderSettings render_settings(const RenderOptions& options, const LoadedScene& loaded,
+                               double seconds_used, std::size_t output_count) {
+  RenderSettings settings;
+  if (options.spp)
+    settings.spp = *options.spp;
+  else if (!options.seconds)
+    settings.spp = std::uint32_t(loaded.sample_count);
+  if (options.seconds) {
+    // Writing is part of the time: about half a second a megapixel and file.
+    const double megapixels = 1e-6 * loaded.film.crop_size.x * loaded.film.crop_size.y;
+    const double writing = 0.05 + 0.5 * megapixels * double(output_count);
+    settings.seconds = std::max(*options.seconds - seconds_used - writing, 0.0);
+  }
+  settings.threads = options.threads;
+  settings.progress = options.quiet ? ProgressStyle::kQuiet : progress_style_of(stderr);
+  return settings;
+}
+
+/// Camera samples of the part of the picture that is rendered.
+SampleFunction sample_function(const PathIntegrator& integrator, const FilmSettings& film,
+                               std::uint64_t seed) {
+  return [&integrator, &film, seed](std::uint32_t x, std::uint32_t y, std::uint32_t index) {
+    const Vec2 corner = Vec2(film.crop_offset) + Vec2(float(x), float(y));
+    const std::uint32_t pixel =
+        std::uint32_t(corner.y) * std::uint32_t(film.size.x) + std::uint32_t(corner.x);
+    Sampler sampler(seed, pixel, index);
+    const Vec2 offset = film.filter->sample(sampler.next_2d());
+    return integrator.sample((corner + 0.5f + offset) / Vec2(film.size), sampler);
+  };
+}
+
+Metadata metadata(const RenderStatistics& s, const RenderOptions& options,
+                  const PathSettings& path) {
+  Metadata data = {
+      {"Software", std::string("brume ") + kVersion},
+      {"brume:scene", s.input},
+      {"brume:seed", std::to_string(s.seed)},
+      {"brume:samples", s.result.mean_spp},
+      {"brume:seconds", s.result.seconds},
+      {"brume:stopped", describe(s.result.reason)},
+      {"brume:max_depth", path.max_depth},
+      {"brume:rr_depth", path.rr_depth},
+      {"brume:relative_rms_error", s.error.relative_rms},
+      {"brume:relative_rms_error_bound_95", s.error.upper_bound},
+      {"brume:biased_settings", std::string("none")},
+  };
+  for (const auto& [name, value] : options.definitions)
+    data.push_back({"brume:define:" + name, value});
+  return data;
+}
+
+void print_summary(const RenderStatistics& s) {
+  fmt::print("{} ({}x{}): {:.4g} samples a pixel in {:.1f} s, {}", fmt::join(s.outputs, ", "),
+             s.size.x, s.size.y, s.result.mean_spp, s.result.seconds, describe(s.result.reason));
+  if (std::isfinite(s.error.relative_rms))
+    fmt::print("; relative RMS error {:.2g}%, below {:.2g}% with 95% confidence",
+               100.0 * s.error.relative_rms, 100.0 * s.error.upper_bound);
+  fmt::print("\n");
+}
+
+void warn_of_bad_samples(const RenderStatistics& s) {
+  if (!s.bad_samples) return;
+  fmt::print(stderr,
+             "warning: {} samples were infinite, negative or not a number and were left out, the "
+             "first in pixel ({}, {}); please report the scene\n",
+             s.bad_samples->count, s.bad_samples->x, s.bad_samples->y);
+}
+
+}  // namespace
+
+int run_render(const RenderOptions& options) {
+  const Clock::time_point begin = Clock::now();
+  const std::vector<std::string> outputs = output_paths(options);
+  for (const std::string& output : outputs) check_output_path(output);
+
+  Notices notices;
+  LoadedScene loaded = load_input(options, notices);
+  print_notices(notices);
+  if (options.max_depth) loaded.path.max_depth = *options.max_depth;
+
+  FilmLayers layers;
+  for (const auto& names : {options.layers, loaded.aovs})
+    for (const std::string& name : names) (name == "albedo" ? layers.albedo : layers.depth) = true;
+  Film film(std::uint32_t(loaded.film.crop_size.x), std::uint32_t(loaded.film.crop_size.y), layers);
+  const PathIntegrator integrator(*loaded.scene, *loaded.camera, loaded.path);
+
+  const InterruptGuard guard;
+  const double load_seconds = seconds_since(begin);
+  const RenderResult result =
+      render(sample_function(integrator, loaded.film, options.seed),
+             render_settings(options, loaded, load_seconds, outputs.size()), film);
+
+  const RenderStatistics statistics{.input = options.input,
+                                    .outputs = outputs,
+                                    .size = loaded.film.crop_size,
+                                    .seed = options.seed,
+                                    .result = result,
+                                    .load_seconds = load_seconds,
+                                    .error = picture_error(film),
+                                    .bad_samples = film.bad_samples()};
+  const Image image = develop(film);
+  const ToneMapping tone_mapping{.exposure = options.exposure, .alpha = loaded.path.hide_emitters};
+  for (const std::string& output : outputs)
+    write_image(output, image, metadata(statistics, options, loaded.path), tone_mapping);
+  if (!options.statistics_path.empty()) write_statistics(options.statistics_path, statistics);
+
+  warn_of_bad_samples(statistics);
+  if (!options.quiet) print_summary(statistics);
+  return result.reason == StopReason::kInterrupted ? kExitInterrupted : 0;
+}
+
+}  // namespace brume
