@@ -21,7 +21,7 @@ class ObjReader {
   explicit ObjReader(const std::filesystem::path& path)
       : path_(path), text_(read_whole_file(path)) {}
 
-  MeshFile read() {
+  MeshData read() {
     for (std::size_t at = 0; at < text_.size();) read_statement(next_line(at));
     if (mesh_.indices.empty()) throw Error(fmt::format("{}: holds no face", path_.string()));
     if (!all_have_uv_) mesh_.uvs.clear();
@@ -139,12 +139,12 @@ class ObjReader {
   std::vector<Vec2> uvs_;
   std::map<Corner, std::uint32_t> vertices_;
   bool all_have_uv_ = true, all_have_normal_ = true;
-  MeshFile mesh_;
+  MeshData mesh_;
 };
 
 }  // namespace
 
-MeshFile read_obj(const std::filesystem::path& path) {
+MeshData read_obj(const std::filesystem::path& path) {
   return ObjReader(path).read();
 }
 

@@ -49,7 +49,7 @@ class PlyReader {
   explicit PlyReader(const std::filesystem::path& path)
       : path_(path), text_(read_whole_file(path)) {}
 
-  MeshFile read() {
+  MeshData read() {
     read_header();
     for (const Element& element : elements_) read_element(element);
     check_indices();
@@ -299,12 +299,12 @@ class PlyReader {
   int line_ = 0;
   Format format_ = Format::kAscii;
   std::vector<Element> elements_;
-  MeshFile mesh_;
+  MeshData mesh_;
 };
 
 }  // namespace
 
-MeshFile read_ply(const std::filesystem::path& path) {
+MeshData read_ply(const std::filesystem::path& path) {
   return PlyReader(path).read();
 }
 

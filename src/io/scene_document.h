@@ -2,17 +2,13 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <memory>
-#include <string>
 #include <vector>
 
+#include "io/scene_file.h"
 #include "io/scene_node.h"
 
 namespace brume {
-
-/// Values for the scene's parameters ($name), from the command line.
-using Definitions = std::map<std::string, std::string>;
 
 /// A scene file and those that it includes as a graph of objects: parameters substituted,
 /// references resolved, names of the older dialect renamed.

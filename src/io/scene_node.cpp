@@ -214,13 +214,10 @@ const SceneNode* SceneNode::only_child(std::string_view child_tag) const {
   return found.empty() ? nullptr : found.front().node;
 }
 
-bool SceneNode::ignore(std::string_view name) const {
-  return find(name) != nullptr;
-}
-
 void SceneNode::finish() const {
-  std::vector<std::string> valid(asked_parameters_.begin(), asked_parameters_.end());
-  for (const auto& [name, child_tag] : asked_children_) valid.push_back(name);
+  std::set<std::string> names(asked_parameters_.begin(), asked_parameters_.end());
+  for (const auto& [name, child_tag] : asked_children_) names.insert(name);
+  const std::vector<std::string> valid(names.begin(), names.end());
   for (const SceneParameter& p : parameters) {
     if (asked_parameters_.contains(p.name)) continue;
     if (const auto asked = asked_children_.find(p.name); asked != asked_children_.end()) {

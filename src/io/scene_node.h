@@ -110,9 +110,6 @@ class SceneNode {
   /// The only child with this tag, or nullptr.
   const SceneNode* only_child(std::string_view child_tag) const;
 
-  /// Makes a name valid that has no effect here. Returns whether the file gives it.
-  bool ignore(std::string_view name) const;
-
   /// Throws for the first parameter or child that was never asked about.
   void finish() const;
 

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/scene_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <set>
+
+#include "io/nearest_name.h"
+#include "io/scene_builder.h"
+#include "io/scene_document.h"
+
+namespace brume {
+namespace {
+
+// Objects that something refers to, or that stand inside another object.
+std::set<const SceneNode*> used_nodes(const SceneDocument& document) {
+  std::set<const SceneNode*> used;
+  for (const auto& node : document.nodes) {
+    for (const SceneNode::Child& child : node->children) {
+      if (node.get() != document.root || child.is_reference) used.insert(child.node);
+    }
+  }
+  return used;
+}
+
+// Media that the boundaries of shapes name.
+std::set<const SceneNode*> media_of_shapes(const SceneDocument& document) {
+  std::set<const SceneNode*> media;
+  for (const auto& node : document.nodes) {
+    if (node->tag != "shape") continue;
+    for (const SceneNode::Child& child : node->children) media.insert(child.node);
+  }
+  return media;
+}
+
+// The medium that fills the space outside all shapes: the one that the scene refers to, or else
+// the one that stands directly in the scene and belongs to no shape.
+const SceneNode* world_medium_of(const SceneDocument& document, Notices& notices) {
+  const std::set<const SceneNode*> taken = media_of_shapes(document);
+  const std::vector<SceneNode::Child> media = document.root->children_of("medium");
+  std::vector<SceneNode::Child> candidates;
+  std::copy_if(media.begin(), media.end(), std::back_inserter(candidates),
+               [](const SceneNode::Child& c) { return c.is_reference; });
+  if (candidates.empty()) {
+    std::copy_if(media.begin(), media.end(), std::back_inserter(candidates),
+                 [&](const SceneNode::Child& c) { return !taken.contains(c.node); });
+  }
+  if (candidates.empty()) return nullptr;
+  if (candidates.size() > 1) {
+    fail_at(candidates[1].at,
+            fmt::format("{} and {} would both fill the space outside all shapes; name one with "
+                        "<ref id=\"...\"/> in the scene, or remove the other",
+                        candidates[0].node->label(), candidates[1].node->label()));
+  }
+  const SceneNode::Child& world = candidates.front();
+  if (!world.is_reference && !world.node->id.empty()) {
+    notices.push_back(fmt::format("{} belongs to no shape: it fills the space outside all shapes",
+                                  world.node->label()));
+  }
+  return world.node;
+}
+
+const SceneNode& sensor_of(const SceneNode& root, Notices& notices) {
+  const std::vector<SceneNode::Child> sensors = root.children_of("sensor");
+  if (sensors.empty()) root.fail("the scene has no sensor");
+  if (sensors.size() > 1) {
+    notices.push_back(fmt::format("the scene has {} sensors; the first is used", sensors.size()));
+  }
+  return *sensors.front().node;
+}
+
+// Only media and the objects of which a scene has many of its own may be referred to from it.
+void check_references(const SceneNode& root) {
+  for (const SceneNode::Child& child : root.children) {
+    if (child.is_reference && child.node->tag != "medium") {
+      fail_at(child.at, fmt::format("a reference directly in the scene names the medium outside "
+                                    "all shapes; {} is a {}",
+                                    child.node->label(), child.node->tag));
+    }
+  }
+}
+
+void note_unused(const SceneDocument& document, Notices& notices) {
+  const std::set<const SceneNode*> used = used_nodes(document);
+  for (const char* tag : {"bsdf", "texture", "phase", "volume", "sampler", "film", "rfilter"}) {
+    for (const SceneNode::Child& child : document.root->children_of(tag)) {
+      if (!used.contains(child.node)) {
+        notices.push_back(
+            fmt::format("{}: {} is used nowhere", child.at.to_string(), child.node->label()));
+      }
+    }
+  }
+}
+
+// The medium at the camera is found from the scene. Where the file says one, both must agree.
+void check_camera_medium(const SceneNode& sensor_node, const SensorSettings& sensor,
+                         const Scene& scene, BuildContext& context) {
+  if (sensor.medium == nullptr) return;
+  const Vec3 position = sensor.camera->ray(Vec2(0.5f), Vec2(0.5f)).ray.o;
+  const Scene::MediumAt found = scene.medium_at(position);
+  if (found.medium == build_medium(*sensor.medium, context).get()) return;
+  std::string name = found.medium == nullptr ? "vacuum" : "another medium";
+  for (const auto& [node, medium] : context.media) {
+    if (medium.get() == found.medium) name = node->label();
+  }
+  const std::string message =
+      fmt::format("{} refers to {}, but the boundaries around it put it in {}", sensor_node.label(),
+                  sensor.medium->label(), name);
+  if (found.unanimous) fail_at(sensor.medium_at, message);
+  context.notices.push_back(
+      fmt::format("{}: {} (not all of them agree)", sensor.medium_at.to_string(), message));
+}
+
+}  // namespace
+
+void BuildContext::accept(const SceneNode& node, std::initializer_list<std::string_view> names) {
+  for (const std::string_view name : names) {
+    if (node.has(name)) without_effect.push_back(fmt::format("{} of {}", name, node.label()));
+  }
+}
+
+void fail_unsupported(const SceneNode& node, const std::vector<std::string>& supported) {
+  const std::string nearest = nearest_name(node.type, supported);
+  fail_at(
+      node.type_at,
+      fmt::format("the {} type \"{}\" is not supported{}; supported are {}", node.tag, node.type,
+                  nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", nearest),
+                  fmt::join(supported, ", ")));
+}
+
+LoadedScene load_scene(const std::filesystem::path& path, const Definitions& definitions,
+                       Notices& notices, const std::optional<glm::ivec2>& size) {
+  const SceneDocument document = read_scene_document(path, definitions);
+  const SceneNode& root = *document.root;
+  BuildContext context{.notices = notices};
+  check_references(root);
+
+  // Settings first: they are checked at once, while media and meshes may take a while to load.
+  IntegratorSettings integrator;
+  if (const SceneNode* node = root.only_child("integrator")) {
+    integrator = build_integrator(*node, context);
+  }
+  const SceneNode& sensor_node = sensor_of(root, notices);
+  const SensorSettings sensor = build_sensor(sensor_node, context, size);
+
+  SceneParts parts;
+  for (const SceneNode::Child& child : root.children_of("emitter")) {
+    build_emitter(*child.node, context, parts);
+  }
+  for (const SceneNode::Child& child : root.children_of("shape")) {
+    parts.surfaces.push_back(build_surface(*child.node, context));
+  }
+  if (const SceneNode* world = world_medium_of(document, notices)) {
+    parts.world_medium = build_medium(*world, context);
+  }
+  note_unused(document, notices);
+  root.finish();
+
+  auto scene = std::make_unique<const Scene>(std::move(parts));
+  check_camera_medium(sensor_node, sensor, *scene, context);
+  if (!context.without_effect.empty()) {
+    notices.push_back(
+        fmt::format("accepted without effect: {}", fmt::join(context.without_effect, ", ")));
+  }
+  return {.scene = std::move(scene),
+          .camera = sensor.camera,
+          .film = sensor.film,
+          .path = integrator.path,
+          .aovs = std::move(integrator.aovs),
+          .sample_count = sensor.sample_count};
+}
+
+}  // namespace brume
