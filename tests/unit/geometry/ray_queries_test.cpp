@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <future>
+
 #include "core/rng.h"
 #include "shapes.h"
 
@@ -101,9 +103,35 @@ TEST(RayQueries, SeesThingsFromFarAway) {
         EXPECT_NEAR(hit->t, distance - hit->p.z, 2e-7f * distance);
         EXPECT_NEAR(hit->p.x, xy.x, 1e-6f);
         EXPECT_NEAR(hit->p.y, xy.y, 1e-6f);
+        const Ray ray{{xy.x, xy.y, distance}, {0, 0, -1}};
+        EXPECT_FALSE(queries.is_occluded(ray, hit->t * (1.0f - 2e-7f)));
+        EXPECT_TRUE(queries.is_occluded(ray, hit->t * (1.0f + 2e-7f)));
       }
     }
   }
+}
+
+TEST(RayQueries, AnswersTheSameInEveryThread) {
+  const std::vector<test::ShapePtr> shapes{
+      std::make_shared<TriangleMesh>(test::sphere_mesh(4), test::skewed(), false, false),
+      std::make_shared<Cube>(glm::dmat4(0.6), false),
+  };
+  const RayQueries queries(shapes);
+  const auto distances = [&queries] {
+    Rng rng(5);
+    std::vector<float> result;
+    for (int i = 0; i < 20000; ++i) {
+      const Vec3 o = 2.0f * sample_uniform_sphere(rng.next_vec2());
+      const std::optional<Hit> hit =
+          queries.intersect({o, sample_uniform_sphere(rng.next_vec2())}, kInfinity);
+      result.push_back(hit ? hit->t : 0.0f);
+    }
+    return result;
+  };
+  const std::vector<float> alone = distances();
+  std::vector<std::future<std::vector<float>>> together;
+  for (int i = 0; i < 4; ++i) together.push_back(std::async(std::launch::async, distances));
+  for (auto& result : together) EXPECT_EQ(result.get(), alone);
 }
 
 TEST(RayQueries, MovesWithItsOwner) {
