@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/grid_builder.h"
+
+#include <fmt/format.h>
+#include <nanovdb/util/OpenToNanoVDB.h>
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/Dense.h>
+#include <openvdb/tools/LevelSetUtil.h>
+#include <openvdb/tools/Prune.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "core/error.h"
+#include "io/grid_checks.h"
+
+namespace brume {
+namespace {
+
+template <class Value>
+struct OpenType;
+template <>
+struct OpenType<float> {
+  using Grid = openvdb::FloatGrid;
+  using DoubleGrid = openvdb::DoubleGrid;
+};
+template <>
+struct OpenType<Rgb> {
+  using Grid = openvdb::Vec3SGrid;
+  using DoubleGrid = openvdb::Vec3DGrid;
+};
+
+glm::dmat4 to_glm(const openvdb::Mat4d& m) {
+  glm::dmat4 result(1);
+  for (int row = 0; row < 4; ++row)  // OpenVDB multiplies row vectors, GLM columns
+    for (int column = 0; column < 4; ++column) result[row][column] = m(row, column);
+  return result;
+}
+
+void require_invertible(const glm::dmat4& m, const std::string& label) {
+  const glm::dmat3 linear(m);
+  const double volume = std::abs(glm::determinant(linear));
+  const double edges = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
+  constexpr double kFlat = 1e-12;
+  if (volume > kFlat * edges && std::isfinite(edges) && std::isfinite(glm::length(m[3]))) return;
+  throw Error(fmt::format("{}: its transform to the world is singular or not finite", label));
+}
+
+template <class Value>
+std::shared_ptr<const Grid<Value>> finish(typename OpenType<Value>::Grid& grid,
+                                          const glm::dmat4& world_from_index, const Box3& box,
+                                          Interpolation interpolation, Wrap wrap) {
+  grid.setTransform(openvdb::math::Transform::createLinearTransform());
+  grid.setName("");
+  return std::make_shared<const Grid<Value>>(
+      nanovdb::openToNanoVDB(grid, nanovdb::StatsMode::MinMax, nanovdb::ChecksumMode::Disable),
+      world_from_index, box, interpolation, wrap);
+}
+
+template <class Value>
+std::shared_ptr<const Grid<Value>> vacuum(const glm::dmat4& world_from_index,
+                                          Interpolation interpolation) {
+  typename OpenType<Value>::Grid empty(
+      openvdb::zeroVal<typename OpenType<Value>::Grid::ValueType>());
+  return finish<Value>(empty, world_from_index, {Vec3(-0.5f), Vec3(0.5f)}, interpolation,
+                       Wrap::kBackground);
+}
+
+/// Narrow-band distances become a fog of density 1 inside, falling to 0 at the surface.
+void turn_into_fog(openvdb::FloatGrid& grid, const std::string& label, Notices& notices) {
+  openvdb::tools::sdfToFogVolume(grid);
+  notices.push_back(fmt::format(
+      "{}: a level set, turned into fog: density 1 inside, falling to 0 at the surface", label));
+}
+void turn_into_fog(openvdb::Vec3SGrid&, const std::string&, Notices&) {}
+
+/// The same grid in single precision.
+template <class Value>
+typename OpenType<Value>::Grid::Ptr in_float(const openvdb::GridBase::Ptr& source,
+                                             const std::string& label) {
+  using FloatGrid = typename OpenType<Value>::Grid;
+  using DoubleGrid = typename OpenType<Value>::DoubleGrid;
+  if (const auto same = openvdb::gridPtrCast<FloatGrid>(source)) {
+    require_sound_tree(same->tree(), label);
+    return same;
+  }
+  const auto wide = openvdb::gridPtrCast<DoubleGrid>(source);
+  require_sound_tree(wide->tree(), label);
+  const auto narrow = FloatGrid::create(
+      typename FloatGrid::TreePtrType(new typename FloatGrid::TreeType(wide->tree())));
+  narrow->setGridClass(wide->getGridClass());
+  return narrow;
+}
+
+/// World placement of a dense volume with voxel centres at integers: Mitsuba's unit cube or box.
+glm::dmat4 placement(const VolFile& vol, const VolumeRequest& request) {
+  const glm::dvec3 lo = request.use_grid_bbox ? vol.box_min : glm::dvec3(0.0);
+  const glm::dvec3 hi = request.use_grid_bbox ? vol.box_max : glm::dvec3(1.0);
+  glm::dmat4 m = glm::translate(request.to_world, lo);
+  m = glm::scale(m, (hi - lo) / glm::dvec3(vol.resolution));
+  return glm::translate(m, glm::dvec3(0.5));
+}
+
+int wrapped_index(int i, int n, Wrap wrap) {
+  if (wrap == Wrap::kRepeat) return (i + n) % n;
+  return std::clamp(i, 0, n - 1);  // one layer of a mirror is a clamp too
+}
+
+/// Stores the voxels that lie one step outside 0 .. n - 1.
+template <class OpenGrid>
+void add_wrapped_layer(OpenGrid& grid, const glm::ivec3& n, Wrap wrap) {
+  auto accessor = grid.getAccessor();
+  for (int z = -1; z <= n.z; ++z)
+    for (int y = -1; y <= n.y; ++y) {
+      const bool outside = y < 0 || y == n.y || z < 0 || z == n.z;
+      for (int x = -1; x <= n.x; x += outside ? 1 : n.x + 1) {
+        const openvdb::Coord inside(wrapped_index(x, n.x, wrap), wrapped_index(y, n.y, wrap),
+                                    wrapped_index(z, n.z, wrap));
+        accessor.setValue({x, y, z}, accessor.getValue(inside));
+      }
+    }
+}
+
+}  // namespace
+
+template <class Value>
+std::shared_ptr<const Grid<Value>> build_grid(openvdb::GridBase::Ptr source,
+                                              const std::string& label,
+                                              const VolumeRequest& request, Notices& notices) {
+  if (!source->transform().isLinear())
+    throw Error(fmt::format("{}: its transform \"{}\" is not affine; resample the grid first",
+                            label, source->transform().mapType()));
+  const glm::dmat4 world_from_index =
+      request.to_world * to_glm(source->transform().baseMap()->getAffineMap()->getMat4());
+  require_invertible(world_from_index, label);
+
+  const auto grid = in_float<Value>(source, label);
+  source.reset();
+  require_finite(grid->tree(), world_from_index, label);
+  if (grid->getGridClass() == openvdb::GRID_LEVEL_SET) turn_into_fog(*grid, label, notices);
+  auto& tree = grid->tree();
+  clean(tree, label, notices);
+
+  openvdb::CoordBBox active;
+  if (!tree.evalActiveVoxelBoundingBox(active)) {
+    notices.push_back(fmt::format("{}: empty, rendered as vacuum", label));
+    return vacuum<Value>(world_from_index, request.interpolation);
+  }
+  openvdb::tools::prune(tree);
+  const auto zero = openvdb::zeroVal<typename OpenType<Value>::Grid::ValueType>();
+  const bool zero_background = tree.background() == zero;
+  if (!zero_background)
+    notices.push_back(fmt::format(
+        "{}: the value outside its voxels is not 0; the volume ends with its voxels", label));
+  bool all_zero = true;
+  for (auto value = tree.cbeginValueOn(); value && all_zero; ++value)
+    all_zero = value.getValue() == zero;
+  if (all_zero) notices.push_back(fmt::format("{}: every voxel is 0, rendered as vacuum", label));
+
+  // Trilinear interpolation of the outermost voxels falls to the background within one voxel.
+  const bool fades = request.interpolation == Interpolation::kTrilinear && zero_background;
+  const float reach = fades ? 1.0f : 0.5f;
+  const Box3 box{Vec3(active.min().x(), active.min().y(), active.min().z()) - reach,
+                 Vec3(active.max().x(), active.max().y(), active.max().z()) + reach};
+  return finish<Value>(*grid, world_from_index, box, request.interpolation, Wrap::kBackground);
+}
+
+template <class Value>
+std::shared_ptr<const Grid<Value>> build_grid(const VolFile& vol, const VolumeRequest& request,
+                                              Notices& notices) {
+  using OpenGrid = typename OpenType<Value>::Grid;
+  using OpenValue = typename OpenGrid::ValueType;
+  const glm::dmat4 world_from_index = placement(vol, request);
+  require_invertible(world_from_index, request.path);
+
+  const glm::ivec3 n = vol.resolution;
+  // The type asks for mutable data, and only reads it.
+  auto* values = reinterpret_cast<OpenValue*>(const_cast<float*>(vol.values.data()));
+  const openvdb::tools::Dense<OpenValue, openvdb::tools::LayoutXYZ> dense(
+      openvdb::CoordBBox(openvdb::Coord(0), openvdb::Coord(n.x - 1, n.y - 1, n.z - 1)), values);
+  OpenGrid grid(openvdb::zeroVal<OpenValue>());
+  openvdb::tools::copyFromDense(dense, grid, openvdb::zeroVal<OpenValue>());
+  require_finite(grid.tree(), world_from_index, request.path);
+  clean(grid.tree(), request.path, notices);
+  if (request.wrap != Wrap::kBackground) add_wrapped_layer(grid, n, request.wrap);
+  if (grid.tree().empty())
+    notices.push_back(fmt::format("{}: every voxel is 0, rendered as vacuum", request.path));
+  const Box3 box{Vec3(-0.5f), Vec3(n) - 0.5f};
+  return finish<Value>(grid, world_from_index, box, request.interpolation, request.wrap);
+}
+
+template std::shared_ptr<const Grid<float>> build_grid(openvdb::GridBase::Ptr, const std::string&,
+                                                       const VolumeRequest&, Notices&);
+template std::shared_ptr<const Grid<Rgb>> build_grid(openvdb::GridBase::Ptr, const std::string&,
+                                                     const VolumeRequest&, Notices&);
+template std::shared_ptr<const Grid<float>> build_grid(const VolFile&, const VolumeRequest&,
+                                                       Notices&);
+template std::shared_ptr<const Grid<Rgb>> build_grid(const VolFile&, const VolumeRequest&,
+                                                     Notices&);
+
+}  // namespace brume

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/grid_file.h"
+
+#include <fmt/format.h>
+
+#include <ios>
+#include <new>
+
+#include "core/error.h"
+
+namespace brume {
+
+void with_clear_errors(const std::string& label, const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw Error(fmt::format("{}: not enough memory", label), ErrorKind::kEnvironment);
+  } catch (const std::ios_base::failure&) {
+    throw Error(fmt::format("{}: truncated or damaged: it ends too early", label));
+  } catch (const std::exception& e) {
+    throw Error(fmt::format("{}: damaged: {}", label, e.what()));
+  }
+}
+
+}  // namespace brume
