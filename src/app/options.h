@@ -14,24 +14,24 @@ namespace brume {
 /// `brume render`, as written on the command line; empty where nothing was said.
 struct RenderOptions {
   std::string input;
-  std::vector<std::string> outputs;
-  std::optional<std::uint32_t> spp;
-  std::optional<double> seconds;
-  std::optional<glm::ivec2> size;  // [pixel]
+  std::vector<std::string> outputs{};
+  std::optional<std::uint32_t> spp{};
+  std::optional<double> seconds{};
+  std::optional<glm::ivec2> size{};  // [pixel]
   std::uint64_t seed = 0;
   int threads = 0;  // 0: all processors
-  std::optional<int> max_depth;
-  std::map<std::string, std::string> definitions;
-  std::vector<std::string> layers;
+  std::optional<int> max_depth{};
+  std::map<std::string, std::string> definitions{};
+  std::vector<std::string> layers{};
   float exposure = 0.0f;  // [stops]
   bool quiet = false;
-  std::string statistics_path;  // empty: none
+  std::string statistics_path{};  // empty: none
 
   // For a bare volume.
-  std::string grid;
-  std::optional<float> density_scale;  // [1/unit] per density
-  std::optional<Rgb> albedo;
-  std::optional<float> g;
+  std::string grid{};
+  std::optional<float> density_scale{};  // [1/unit] per density
+  std::optional<Rgb> albedo{};
+  std::optional<float> g{};
 
   bool any_volume_option() const { return !grid.empty() || density_scale || albedo || g; }
 };
