@@ -5,4 +5,5 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/build.sh checked
+scripts/check.sh
 ctest --preset checked -j "$(nproc)" "$@"

@@ -65,7 +65,7 @@ View frame_volume(const Grid<float>& grid, double aspect) {
     corners.push_back(glm::dvec3(grid.world_from_index() * glm::dvec4(corner, 1.0)));
   }
   const glm::dvec3 center = 0.5 * (corners.front() + corners.back());
-  const glm::dvec3 backward = glm::normalize(glm::dvec3(0.45, -0.05, 1.0));
+  const glm::dvec3 backward = glm::normalize(glm::dvec3(0.45, -0.16, 1.0));
   const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), backward));
   const glm::dvec3 up = glm::cross(backward, right);
 

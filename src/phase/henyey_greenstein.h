@@ -42,7 +42,7 @@ struct HenyeyGreenstein {
     const float forward = (1.0f - a) / D;
     const float backward = (1.0f + a) / D;
     const float one_minus = 2.0f * forward * forward * (1.0f - u.x) * (1.0f + a * u.x);
-    const float one_plus = 2.0f * backward * backward * u.x * (1.0f - a * (1.0f - u.x));
+    const float one_plus = 2.0f * backward * backward * u.x * (1.0f - a + a * u.x);
     const float cos_theta = one_minus < 1.0f ? 1.0f - one_minus : one_plus - 1.0f;
     const float sin_theta = std::sqrt(one_minus * one_plus);
     const Vec3 local = spherical_direction(sin_theta, std::copysign(1.0f, g) * cos_theta,
