@@ -97,6 +97,7 @@ class PlyReader {
       }
     }
     if (!has_format) fail("the PLY header names no format");
+    ++line_;
   }
 
   void read_format(std::string_view name) {
@@ -296,7 +297,7 @@ class PlyReader {
   std::filesystem::path path_;
   std::string text_;
   std::size_t at_ = 0;  // [bytes] read so far
-  int line_ = 0;
+  int line_ = 0;        // that `at_` follows in the header, and stands in afterwards
   Format format_ = Format::kAscii;
   std::vector<Element> elements_;
   MeshData mesh_;

@@ -117,17 +117,18 @@ void check_camera_medium(const SceneNode& sensor_node, const SensorSettings& sen
 
 void BuildContext::accept(const SceneNode& node, std::initializer_list<std::string_view> names) {
   for (const std::string_view name : names) {
-    if (node.has(name)) without_effect.push_back(fmt::format("{} of {}", name, node.label()));
+    if (const SceneParameter* p = node.find(name)) {
+      without_effect.push_back(fmt::format("{} of {}", p->written, node.label()));
+    }
   }
 }
 
 void fail_unsupported(const SceneNode& node, const std::vector<std::string>& supported) {
   const std::string nearest = nearest_name(node.type, supported);
-  fail_at(
-      node.type_at,
-      fmt::format("the {} type \"{}\" is not supported{}; supported are {}", node.tag, node.type,
-                  nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", nearest),
-                  fmt::join(supported, ", ")));
+  fail_at(node.type_at,
+          fmt::format("the {} type \"{}\" is not supported{} Supported: {}", node.tag, node.type,
+                      nearest.empty() ? "." : fmt::format("; did you mean \"{}\"?", nearest),
+                      fmt::join(supported, ", ")));
 }
 
 LoadedScene load_scene(const std::filesystem::path& path, const Definitions& definitions,

@@ -75,10 +75,6 @@ const Value* SceneNode::find_value(std::string_view name, std::string_view expec
   return value;
 }
 
-bool SceneNode::has(std::string_view name) const {
-  return find(name) != nullptr;
-}
-
 const SourcePosition& SceneNode::position(std::string_view name) const {
   const SceneParameter* p = find(name);
   return p != nullptr ? p->value_at : at;

@@ -80,8 +80,9 @@ class SceneNode {
   std::string label() const;
   [[noreturn]] void fail(const std::string& message) const { fail_at(at, message); }
 
-  /// Whether the file gives a parameter of this name.
-  bool has(std::string_view name) const;
+  /// The parameter of this name, or nullptr.
+  const SceneParameter* find(std::string_view name) const;
+  bool has(std::string_view name) const { return find(name) != nullptr; }
   /// Position of the value of a parameter that is there.
   const SourcePosition& position(std::string_view name) const;
   /// Throws unless the file gives it.
@@ -114,7 +115,6 @@ class SceneNode {
   void finish() const;
 
  private:
-  const SceneParameter* find(std::string_view name) const;
   template <class Value>
   const Value* find_value(std::string_view name, std::string_view expected) const;
   void finish_child(const Child& child, const std::vector<std::string>& valid) const;

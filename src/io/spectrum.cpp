@@ -159,7 +159,8 @@ glm::dvec3 reflectance_to_rgb(const Spectrum& spectrum) {
   assert(!spectrum.values.empty());
   if (spectrum.is_uniform()) return glm::dvec3(spectrum.values[0]);
   const auto d65 = [](double nm) { return interpolated(kD65, kD65Step_nm, nm); };
-  return rec709(relative_xyz(spectrum, d65) * kWhiteD65);
+  // The published matrix takes D65 to white with an error of 2e-4, which grey must not show.
+  return rec709(relative_xyz(spectrum, d65) * kWhiteD65) / rec709(kWhiteD65);
 }
 
 }  // namespace brume
