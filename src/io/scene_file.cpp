@@ -71,13 +71,13 @@ const SceneNode& sensor_of(const SceneNode& root, Notices& notices) {
   return *sensors.front().node;
 }
 
-// Only media and the objects of which a scene has many of its own may be referred to from it.
+// Anything else that is referred to stands in the scene already.
 void check_references(const SceneNode& root) {
   for (const SceneNode::Child& child : root.children) {
     if (child.is_reference && child.node->tag != "medium") {
       fail_at(child.at, fmt::format("a reference directly in the scene names the medium outside "
-                                    "all shapes; {} is a {}",
-                                    child.node->label(), child.node->tag));
+                                    "all shapes, not a {}",
+                                    child.node->tag));
     }
   }
 }

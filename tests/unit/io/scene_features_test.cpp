@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "film/write_image.h"
 #include "scene_fixture.h"
 
 namespace brume {
@@ -214,6 +215,22 @@ TEST_F(SceneFeatures, TexturesVaryOverTheSurface) {
   EXPECT_FLOAT_EQ(albedo(0.5f, -0.5f), 0.9f);
 }
 
+TEST_F(SceneFeatures, PicturesBecomeTexturesAndEnvironments) {
+  Image image{.width = 2, .height = 2, .channels = {"R", "G", "B"}};
+  image.pixels = {0.1f, 0.2f, 0.3f, 0.1f, 0.2f, 0.3f, 0.1f, 0.2f, 0.3f, 0.1f, 0.2f, 2.0f};
+  write_image((folder() / "picture.exr").string(), image);
+  EXPECT_LE(albedo_of(R"(<bsdf type="diffuse"><texture type="bitmap" name="reflectance">
+      <string name="filename" value="picture.exr"/><string name="wrap_mode" value="clamp"/>
+      <string name="filter_type" value="nearest"/></texture></bsdf>)")
+                .b,
+            1.0f);
+  EXPECT_THAT(notices(), ElementsAre(HasSubstr("1 pixels outside [0, 1] are clamped")));
+
+  const auto loaded = load_body(R"(<emitter type="envmap">
+      <string name="filename" value="picture.exr"/><float name="scale" value="10"/></emitter>)");
+  expect_near(loaded.scene->lights().environment_radiance({0, 1, 0}), Rgb(1, 2, 3), 1e-3f);
+}
+
 TEST_F(SceneFeatures, EveryEmitterIsALight) {
   for (
       const char* body : {
@@ -357,6 +374,38 @@ TEST_F(SceneFeatures, AnOldShapeWithAMediumAndNoBsdfIsAnIndexMatchedBoundary) {
   };
   EXPECT_EQ(straight(load(old_dialect(body))), 1.0f);
   EXPECT_EQ(straight(load_body(body)), 0.0f);
+}
+
+// A .vol of one voxel of density 1 in the box [0, 2]^3.
+TEST_F(SceneFeatures, AnOldGridVolumeFillsTheBoxInItsFile) {
+  std::string vol = "VOL\x03";
+  for (const std::int32_t i : {1, 1, 1, 1, 1}) {
+    vol.append(reinterpret_cast<const char*>(&i), sizeof i);
+  }
+  for (const float f : {0.0f, 0.0f, 0.0f, 2.0f, 2.0f, 2.0f, 1.0f}) {
+    vol.append(reinterpret_cast<const char*>(&f), sizeof f);
+  }
+  write("one.vol", vol);
+  const auto medium = [](const char* parameter, const char* more) {
+    return std::string("<medium type=\"heterogeneous\"><volume type=\"gridvolume\" name=\"") +
+           parameter + "\"><string name=\"filename\" value=\"one.vol\"/>" + more +
+           "</volume></medium>";
+  };
+  constexpr const char* kUseBox = R"(<boolean name="use_grid_bbox" value="true"/>)";
+  // Beyond the box there is vacuum, within it the density is 1 everywhere.
+  const Vec3 in_both(0.0f, 0.5f, 0.5f), in_box_only(1.5f, 1.5f, 1.5f);
+  const auto is_vacuum = [](const LoadedScene& loaded, const Vec3& p) {
+    Rgb sum(0.0f);
+    for (int i = 0; i < 8; ++i) sum += transmittance_at(loaded, p + Vec3(0, 0, 0.001f * float(i)));
+    return sum == Rgb(8.0f);
+  };
+  const LoadedScene today = load_body(medium("sigma_t", ""));
+  EXPECT_FALSE(is_vacuum(today, in_both));
+  EXPECT_TRUE(is_vacuum(today, in_box_only));
+  const LoadedScene today_in_box = load_body(medium("sigma_t", kUseBox));
+  EXPECT_FALSE(is_vacuum(today_in_box, in_box_only));
+  const LoadedScene old = load(old_dialect(medium("density", "")));
+  EXPECT_FALSE(is_vacuum(old, in_box_only));
 }
 
 TEST_F(SceneFeatures, AnOldSpectrumOfOneNumberIsGreyLight) {
