@@ -106,7 +106,7 @@ void add_definitions(CLI::App& command, std::map<std::string, std::string>& defi
 
 void add_render(CLI::App& app, RenderOptions& options) {
   CLI::App& render = *app.add_subcommand("render", "Render a scene or a volume to picture files");
-  add_input(render, options.input, "Scene (.xml) or volume (.vdb, .nvdb)");
+  add_input(render, options.input, "Scene (.xml) or volume (.vdb, .nvdb, .vol)");
   render
       .add_option("-o,--output", options.outputs,
                   "Picture to write: .exr (linear, with opacity and error layers), .png, .jpg or "
@@ -193,26 +193,31 @@ void add_info(CLI::App& app, InfoOptions& options) {
   add_definitions(info, options.definitions);
 }
 
-/// `unknown` as the user wrote it, with the nearest option of the command that was chosen.
-std::string unknown_option_message(const CLI::App& app, const std::string& unknown) {
-  std::vector<std::string> names;
+/// `unknown` as the user wrote it, with the nearest option or command.
+std::string unknown_word_message(const CLI::App& app, const std::string& unknown) {
   const auto chosen = app.get_subcommands();
-  for (const CLI::Option* option : (chosen.empty() ? &app : chosen.front())->get_options())
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  if (chosen.empty())
-    for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-  return fmt::format("unknown {} \"{}\"{}", unknown.starts_with("-") ? "option" : "argument",
-                     unknown, suggestion(unknown, names));
+  std::vector<std::string> names;
+  if (unknown.starts_with("-")) {
+    for (const CLI::Option* option : (chosen.empty() ? &app : chosen.front())->get_options())
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    return fmt::format("unknown option \"{}\"{}", unknown, suggestion(unknown, names));
+  }
+  if (!chosen.empty()) return fmt::format("one argument too many: \"{}\"", unknown);
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return fmt::format("unknown command \"{}\"{}", unknown, suggestion(unknown, names));
 }
 
 int report_mistake(const CLI::App& app, const CLI::ParseError& error) {
   std::string message = error.what();
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
-    auto rest = app.remaining(true);
-    message = unknown_option_message(app, rest.empty() ? "" : rest.front());
-  }
+  // A command that is missing is one that was misspelt, if there is any word that nothing knows.
+  const bool lacks_command = app.get_subcommands().empty();
+  const std::vector<std::string> rest = app.remaining(true);
+  if (!rest.empty() && (lacks_command || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr))
+    message = unknown_word_message(app, rest.front());
+  else if (lacks_command)
+    message = "a command is needed: render or info";
   fmt::print(stderr, "brume: {}\nTry: brume {}--help\n", message,
-             app.get_subcommands().empty() ? "" : app.get_subcommands().front()->get_name() + " ");
+             lacks_command ? "" : app.get_subcommands().front()->get_name() + " ");
   return 2;
 }
 

@@ -9,6 +9,7 @@
 #include "app/input.h"
 #include "app/statistics_file.h"
 #include "app/version.h"
+#include "film/atomic_file.h"
 #include "film/develop.h"
 #include "film/write_image.h"
 #include "integrator/path_integrator.h"
@@ -103,6 +104,7 @@ int run_render(const RenderOptions& options) {
   const Clock::time_point begin = Clock::now();
   const std::vector<std::string> outputs = output_paths(options);
   for (const std::string& output : outputs) check_output_path(output);
+  if (!options.statistics_path.empty()) check_writable(options.statistics_path);
 
   Notices notices;
   LoadedScene loaded = load_input(options, notices);
