@@ -5,12 +5,15 @@
 
 #include "core/frame.h"
 #include "core/warp.h"
+#include "integrator/segment_lighting.h"
 
 namespace brume {
 
 namespace {
 /// Flights after which roulette stops every path sooner or later.
 constexpr int kLongPath = 10000;
+/// Scatterings up to which flights look for lights near to them; later ones matter too little.
+constexpr int kDepthThatSeeksLights = 2;
 }  // namespace
 
 struct PathIntegrator::Path {
@@ -21,7 +24,9 @@ struct PathIntegrator::Path {
   Rgb L{0.0f};           // radiance gathered [W/(m^2 sr)]
   Vec3 vertex{ray.o};    // where the direction was chosen
   float pdf_dir =
-      kInfinity;  // density of that choice [1/sr]; infinite: light sampling cannot make it
+      kInfinity;          // density of that choice [1/sr]; infinite: light sampling cannot make it
+  Segment segment{};      // that ended at `vertex`, if it lies in a medium; else no medium
+  float t_vertex = 0.0f;  // where it did [unit]
   float eta_squared = 1.0f;  // of refractions so far, which beta carries and roulette must not see
   int depth = 0;             // scattering events
   int segments = 0;          // flights, through index-matched boundaries too
@@ -40,28 +45,39 @@ CameraSample PathIntegrator::sample(const Vec2& film, Sampler& sampler) const {
 
   for (bool alive = true; alive; ++path.segments) {
     const auto hit = scene_.intersect(path.ray, path.t_max);
+    if (hit) add_emission(path, *hit, sampler);
     if (path.medium != nullptr) {
-      const float t_end = hit ? hit->t : path.t_max;
+      const Segment segment{.ray = path.ray,
+                            .t_end = hit ? hit->t : path.t_max,
+                            .beta = path.beta,
+                            .medium = path.medium,
+                            .seeks_lights = path.depth < kDepthThatSeeksLights};
       const FreeFlight flight =
-          path.medium->sample_free_flight(path.ray, t_end, path.beta, sampler);
+          path.medium->sample_free_flight(path.ray, segment.t_end, path.beta, sampler);
       path.beta *= flight.weight;
+      if (may_scatter(path)) light_segment(path, segment, flight, sampler);
       if (is_black(path.beta)) break;
       if (flight.scattered) {
-        alive = scatter_in_medium(path, flight, sampler) && survives_roulette(path, sampler);
+        alive =
+            scatter_in_medium(path, segment, flight, sampler) && survives_roulette(path, sampler);
         continue;
       }
     }
     if (!hit) {
-      add_environment(path);
+      if (path.depth > 0) add_environment(path);
       break;
     }
     alive = interact_with_surface(path, *hit, sampler) && survives_roulette(path, sampler);
   }
 
+  // What stands behind everything is seen through the same estimate as the opacity, not by the
+  // chance of a path that meets nothing.
+  const Rgb T = scene_.transmittance(camera_ray.ray, camera_ray.t_max, medium, sampler.rng());
   CameraSample result = path.first;
+  result.alpha = 1.0f - mean(T);
   result.L = path.L;
-  result.alpha =
-      1.0f - mean(scene_.transmittance(camera_ray.ray, camera_ray.t_max, medium, sampler.rng()));
+  if (!settings_.hide_emitters)
+    result.L += T * scene_.lights().environment_radiance(camera_ray.ray.d);
   return result;
 }
 
@@ -69,7 +85,50 @@ bool PathIntegrator::may_scatter(const Path& path) const {
   return settings_.max_depth < 0 || path.depth + 1 < settings_.max_depth;
 }
 
-bool PathIntegrator::scatter_in_medium(Path& path, const FreeFlight& flight,
+void PathIntegrator::light_segment(Path& path, const Segment& segment, const FreeFlight& flight,
+                                   Sampler& sampler) const {
+  const SegmentLighting lighting(scene_.lights(), segment);
+  const float u_light = sampler.next_1d();
+  const Vec2 u_target = sampler.next_2d();
+  const Vec3 d = segment.ray.d;
+
+  if (lighting.p_near() > 0.0f && sampler.rng().next_float() < lighting.p_near()) {
+    const SegmentLighting::Point point = lighting.sample(u_light, sampler.next_1d());
+    const Vec3 p = segment.ray.at(point.t);
+    const auto light = scene_.lights().light(point.light).sample(p, u_target);
+    if (!light) return;
+    const auto scattering = segment.medium->scattering_at(segment.ray, point.t, segment.beta);
+    const float value = scattering->phase.eval(d, light->d);
+    const float density =
+        (1.0f - lighting.p_near()) * scattering->pdf * scene_.lights().probability(p, point.light) +
+        lighting.p_near() * point.pdf;
+    const float weight = power_heuristic(density * light->pdf, scattering->pdf * value);
+    connect(path, p, *light, segment.beta * scattering->value / density, value * weight, sampler);
+    return;
+  }
+
+  if (!flight.scattered || flight.phase.is_delta()) return;
+  const Vec3 p = segment.ray.at(flight.t);
+  const auto arrival = scene_.lights().sample(p, u_light, u_target);
+  if (!arrival) return;
+  const float value = flight.phase.eval(d, arrival->light.d);
+  const float mixture =
+      lighting.choice(arrival->index, flight.t, arrival->p_choice) / arrival->p_choice;
+  const float weight = power_heuristic(arrival->light.pdf * mixture, value);
+  connect(path, p, arrival->light, path.beta / mixture, value * weight, sampler);
+}
+
+void PathIntegrator::connect(Path& path, const Vec3& p, const LightSample& light, const Rgb& beta,
+                             float value, Sampler& sampler) const {
+  // A shadow ray costs as much as a scattering: directions into which less is scattered than
+  // isotropically get one only with that proportion.
+  const float p_trace = std::min(4.0f * kPi * value, 1.0f);
+  if (!(sampler.rng().next_float() < p_trace)) return;
+  const Rgb T = scene_.transmittance({p, light.d}, light.distance, path.medium, sampler.rng());
+  path.L += beta * T * light.weight * (value / p_trace);
+}
+
+bool PathIntegrator::scatter_in_medium(Path& path, const Segment& segment, const FreeFlight& flight,
                                        Sampler& sampler) const {
   if (!std::isfinite(path.first.depth)) {
     path.first.depth = path.t_first + flight.t;
@@ -78,36 +137,17 @@ bool PathIntegrator::scatter_in_medium(Path& path, const FreeFlight& flight,
   if (!may_scatter(path)) return false;
   ++path.depth;
   const Vec3 p = path.ray.at(flight.t);
-  const Vec3 d = path.ray.d;
-
-  const float u_light = sampler.next_1d();
-  const Vec2 u_target = sampler.next_2d();
-  if (!flight.phase.is_delta()) {
-    if (const auto light = scene_.lights().sample(p, u_light, u_target)) {
-      const float value = flight.phase.eval(d, light->d);
-      const float weighted = value * power_heuristic(light->pdf, value);
-      // A shadow ray costs as much as a scattering: directions into which less is scattered than
-      // isotropically get one only with that proportion.
-      const float p_trace = std::min(4.0f * kPi * weighted, 1.0f);
-      if (sampler.rng().next_float() < p_trace) {
-        const Rgb T =
-            scene_.transmittance({p, light->d}, light->distance, path.medium, sampler.rng());
-        path.L += path.beta * T * light->weight * (weighted / p_trace);
-      }
-    }
-  }
-
-  const PhaseSample next = flight.phase.sample(d, sampler.next_2d());
+  const PhaseSample next = flight.phase.sample(path.ray.d, sampler.next_2d());
   path.ray = {p, next.d};
   path.t_max = kInfinity;
   path.vertex = p;
   path.pdf_dir = next.pdf;
+  path.segment = segment;
+  path.t_vertex = flight.t;
   return true;
 }
 
 bool PathIntegrator::interact_with_surface(Path& path, const Hit& hit, Sampler& sampler) const {
-  add_emission(path, hit);
-
   const Bsdf& bsdf = scene_.bsdf(hit);
   const Frame frame(hit.n_shading, hit.dp_du);
   const Vec3 wo = frame.to_local(-path.ray.d);
@@ -118,7 +158,8 @@ bool PathIntegrator::interact_with_surface(Path& path, const Hit& hit, Sampler& 
   const float u_light = sampler.next_1d();
   const Vec2 u_target = sampler.next_2d();
   if (bsdf.has_smooth_lobe() && may_scatter(path)) {
-    if (const auto light = scene_.lights().sample(hit.p, u_light, u_target)) {
+    if (const auto arrival = scene_.lights().sample(hit.p, u_light, u_target)) {
+      const LightSample* light = &arrival->light;
       const Vec3 wi = frame.to_local(light->d);
       const Rgb value = bsdf.eval(wo, wi, hit.uv);
       if (!is_black(value) && same_side(wi, light->d)) {
@@ -159,21 +200,34 @@ bool PathIntegrator::interact_with_surface(Path& path, const Hit& hit, Sampler& 
   path.t_max = kInfinity;
   path.vertex = hit.p;
   path.pdf_dir = next->pdf;
+  path.segment.medium = nullptr;
   path.eta_squared *= next->eta * next->eta;
   return true;
 }
 
-void PathIntegrator::add_emission(Path& path, const Hit& hit) const {
+void PathIntegrator::add_emission(Path& path, const Hit& hit, Sampler& sampler) const {
   if (path.depth == 0 && settings_.hide_emitters) return;
-  if (const auto emission = scene_.emission(path.vertex, hit, path.ray.d))
-    path.L += path.beta * emission->L * power_heuristic(path.pdf_dir, emission->pdf);
+  const auto emission = scene_.emission(path.vertex, hit, path.ray.d);
+  if (!emission) return;
+  // The light that crosses the medium, rather than the chance that the path does.
+  const Rgb T = path.medium == nullptr ? Rgb{1.0f}
+                                       : path.medium->transmittance(path.ray, hit.t, sampler.rng());
+  const float p_choice = scene_.lights().probability(path.vertex, emission->light);
+  const float pdf_light = emission->pdf * light_choice(path, emission->light, p_choice);
+  path.L += path.beta * T * emission->L * power_heuristic(path.pdf_dir, pdf_light);
 }
 
 void PathIntegrator::add_environment(Path& path) const {
-  if (path.depth == 0 && settings_.hide_emitters) return;
-  const float pdf_light = scene_.lights().environment_pdf(path.vertex, path.ray.d);
-  path.L += path.beta * scene_.lights().environment_radiance(path.ray.d) *
+  const LightSet& lights = scene_.lights();
+  const float pdf_light =
+      lights.environment_pdf(path.vertex, path.ray.d) * light_choice(path, lights.size(), 1.0f);
+  path.L += path.beta * lights.environment_radiance(path.ray.d) *
             power_heuristic(path.pdf_dir, pdf_light);
+}
+
+float PathIntegrator::light_choice(const Path& path, std::size_t light, float p_choice) const {
+  if (path.segment.medium == nullptr) return p_choice;
+  return SegmentLighting(scene_.lights(), path.segment).choice(light, path.t_vertex, p_choice);
 }
 
 bool PathIntegrator::survives_roulette(Path& path, Sampler& sampler) const {

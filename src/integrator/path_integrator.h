@@ -6,6 +6,7 @@
 #include "film/camera_sample.h"
 #include "integrator/camera_medium.h"
 #include "integrator/path_settings.h"
+#include "integrator/segment_lighting.h"
 #include "scene/scene.h"
 
 namespace brume {
@@ -24,14 +25,21 @@ class PathIntegrator {
  private:
   struct Path;
 
+  void light_segment(Path& path, const Segment& segment, const FreeFlight& flight,
+                     Sampler& sampler) const;
+  void connect(Path& path, const Vec3& p, const LightSample& light, const Rgb& beta, float value,
+               Sampler& sampler) const;
+
   // Each returns whether the path goes on.
-  bool scatter_in_medium(Path& path, const FreeFlight& flight, Sampler& sampler) const;
+  bool scatter_in_medium(Path& path, const Segment& segment, const FreeFlight& flight,
+                         Sampler& sampler) const;
   bool interact_with_surface(Path& path, const Hit& hit, Sampler& sampler) const;
   bool survives_roulette(Path& path, Sampler& sampler) const;
 
   bool may_scatter(const Path& path) const;
-  void add_emission(Path& path, const Hit& hit) const;
+  void add_emission(Path& path, const Hit& hit, Sampler& sampler) const;
   void add_environment(Path& path) const;
+  float light_choice(const Path& path, std::size_t light, float p_choice) const;
 
   const Scene& scene_;
   const Camera& camera_;

@@ -13,11 +13,11 @@ ReferenceIntegrator::ReferenceIntegrator(const Scene& scene, const Camera& camer
 
 Rgb ReferenceIntegrator::dirac_light(const Vec3& p, Sampler& sampler, Vec3& d,
                                      float& distance) const {
-  const auto light = scene_.lights().sample(p, sampler.next_1d(), sampler.next_2d());
-  if (!light || std::isfinite(light->pdf)) return Rgb{0.0f};
-  d = light->d;
-  distance = light->distance;
-  return light->weight;
+  const auto arrival = scene_.lights().sample(p, sampler.next_1d(), sampler.next_2d());
+  if (!arrival || std::isfinite(arrival->light.pdf)) return Rgb{0.0f};
+  d = arrival->light.d;
+  distance = arrival->light.distance;
+  return arrival->light.weight;
 }
 
 Rgb ReferenceIntegrator::analog_transmittance(Ray ray, float distance, const Medium* medium,

@@ -2,8 +2,10 @@
 #include "light/area_light.h"
 
 #include <cassert>
+#include <cmath>
 #include <utility>
 
+#include "light/importance.h"
 #include "light/toward.h"
 
 namespace brume {
@@ -11,6 +13,8 @@ namespace brume {
 AreaLight::AreaLight(std::shared_ptr<const Shape> shape, const Rgb& radiance)
     : shape_(std::move(shape)), radiance_(radiance) {
   assert(shape_ != nullptr);
+  center_ = shape_->bounds().center();
+  radius_ = std::sqrt(shape_->area() / (2.0f * kPi));
 }
 
 std::optional<LightSample> AreaLight::sample(const Vec3& p, const Vec2& u) const {
@@ -31,6 +35,17 @@ std::optional<LightSample> AreaLight::sample(const Vec3& p, const Vec2& u) const
                      .distance = static_cast<float>(toward.distance),
                      .weight = radiance_ / s->pdf,
                      .pdf = s->pdf};
+}
+
+float AreaLight::importance(const Vec3& p) const {
+  // The solid angle of a disk of the light's size, seen from straight ahead.
+  const float d2 = length_squared(center_ - p);
+  const float cos_angle = std::sqrt(d2 / (d2 + radius_ * radius_));
+  return finite(luminance(radiance_) * 2.0f * kPi * (1.0f - (d2 > 0.0f ? cos_angle : 0.0f)));
+}
+
+std::optional<Light::Pivot> AreaLight::pivot() const {
+  return Pivot{.center = center_, .radius = radius_};
 }
 
 }  // namespace brume

@@ -18,6 +18,8 @@ class AreaLight final : public Light {
 
   /// The shadow ray of length `distance` ends in front of the surface by its error bound.
   std::optional<LightSample> sample(const Vec3& p, const Vec2& u) const override;
+  float importance(const Vec3& p) const override;
+  std::optional<Pivot> pivot() const override;
 
   /// Emitted against the direction of travel `d` of a ray that found `hit` on the light's shape.
   Rgb radiance(const Hit& hit, const Vec3& d) const {
@@ -30,6 +32,8 @@ class AreaLight final : public Light {
  private:
   std::shared_ptr<const Shape> shape_;
   Rgb radiance_;  // [W/(m^2 sr)]
+  Vec3 center_;   // of the shape's bounds [unit]
+  float radius_;  // of a disk of half the shape's area [unit]
 };
 
 }  // namespace brume

@@ -2,6 +2,7 @@
 #include "light/constant_environment.h"
 
 #include "core/warp.h"
+#include "light/importance.h"
 
 namespace brume {
 
@@ -14,6 +15,10 @@ std::optional<LightSample> ConstantEnvironment::sample(const Vec3& /*p*/, const 
 
 float ConstantEnvironment::pdf(const Vec3& /*d*/) const {
   return 1.0f / (4.0f * kPi);
+}
+
+float ConstantEnvironment::importance(const Vec3& /*p*/) const {
+  return finite(4.0f * kPi * luminance(radiance_));
 }
 
 }  // namespace brume

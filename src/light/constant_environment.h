@@ -12,6 +12,7 @@ class ConstantEnvironment final : public EnvironmentLight {
   explicit ConstantEnvironment(const Rgb& radiance) : radiance_(radiance) {}
 
   std::optional<LightSample> sample(const Vec3& p, const Vec2& u) const override;
+  float importance(const Vec3& p) const override;
   Rgb radiance(const Vec3& /*d*/) const override { return radiance_; }
   float pdf(const Vec3& d) const override;
 

@@ -12,6 +12,7 @@ class DirectionalLight final : public Light {
   DirectionalLight(const Vec3& direction, const Rgb& irradiance);
 
   std::optional<LightSample> sample(const Vec3& p, const Vec2& u) const override;
+  float importance(const Vec3& p) const override;
 
  private:
   Vec3 to_light_;   // unit

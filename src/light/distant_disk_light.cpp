@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/warp.h"
+#include "light/importance.h"
 
 namespace brume {
 namespace {
@@ -40,6 +41,10 @@ Rgb DistantDiskLight::radiance(const Vec3& d) const {
 
 float DistantDiskLight::pdf(const Vec3& d) const {
   return one_minus_cos(d, frame_.n) <= one_minus_cos_ ? pdf_ : 0.0f;
+}
+
+float DistantDiskLight::importance(const Vec3& /*p*/) const {
+  return finite(luminance(radiance_) / pdf_);
 }
 
 }  // namespace brume

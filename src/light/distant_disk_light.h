@@ -15,6 +15,7 @@ class DistantDiskLight final : public EnvironmentLight {
   DistantDiskLight(const Vec3& direction, float angular_radius, const Rgb& irradiance);
 
   std::optional<LightSample> sample(const Vec3& p, const Vec2& u) const override;
+  float importance(const Vec3& p) const override;
   Rgb radiance(const Vec3& d) const override;
   float pdf(const Vec3& d) const override;
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "light/importance.h"
+
 namespace brume {
 namespace {
 
@@ -154,6 +156,10 @@ float EnvironmentMap::pdf(const Vec3& d) const {
   if (!(flux_ > 0.0)) return 0.0f;
   const auto [cell, offset] = locate(d);
   return static_cast<float>(double(corners(cell).density(offset)) / flux_);
+}
+
+float EnvironmentMap::importance(const Vec3& /*p*/) const {
+  return finite(float(flux_));
 }
 
 }  // namespace brume

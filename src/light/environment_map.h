@@ -30,6 +30,7 @@ class EnvironmentMap final : public EnvironmentLight {
                  const glm::dmat4& to_world, float scale);
 
   std::optional<LightSample> sample(const Vec3& p, const Vec2& u) const override;
+  float importance(const Vec3& p) const override;
   Rgb radiance(const Vec3& d) const override;
   float pdf(const Vec3& d) const override;
 

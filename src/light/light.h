@@ -23,6 +23,18 @@ class Light {
 
   /// Light arriving at `p` from a direction chosen by importance; nothing when none can arrive.
   virtual std::optional<LightSample> sample(const Vec3& p, const Vec2& u) const = 0;
+
+  /// Roughly the fluence at `p` if nothing stood in between, as luminance [W/m^2]; finite, and 0
+  /// only where no light can arrive. It guides the choice among lights.
+  virtual float importance(const Vec3& p) const = 0;
+
+  /// Where the light is, for choosing points along a ray that are near to it.
+  struct Pivot {
+    Vec3 center;   // [unit]
+    float radius;  // of the light around it, roughly [unit]
+  };
+  /// Nothing for light from infinitely far away.
+  virtual std::optional<Pivot> pivot() const { return std::nullopt; }
 };
 
 }  // namespace brume

@@ -6,23 +6,71 @@
 #include <utility>
 
 namespace brume {
+namespace {
+
+/// Part of the choices among lights that does not look at their importance.
+constexpr float kUniformPart = 0.2f;
+
+}  // namespace
 
 LightSet::LightSet(std::vector<std::shared_ptr<const Light>> lights,
                    std::vector<std::shared_ptr<const EnvironmentLight>> environments)
-    : lights_(std::move(lights)), environments_(std::move(environments)) {}
+    : lights_(std::move(lights)), environments_(std::move(environments)) {
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (i < lights_.size() && lights_[i]->pivot())
+      with_pivot_.push_back(i);
+    else
+      importance_without_pivot_ += importance(Vec3(0.0f), i);
+  }
+}
 
-std::optional<LightSample> LightSet::sample(const Vec3& p, float u_choice, const Vec2& u) const {
+float LightSet::importance(const Vec3& p, std::size_t index) const {
+  return index < lights_.size() ? lights_[index]->importance(p)
+                                : environments_[index - lights_.size()]->importance(p);
+}
+
+float LightSet::total_importance(const Vec3& p) const {
+  float total = 0.0f;
+  for (std::size_t i = 0; i < size(); ++i) total += importance(p, i);
+  return total;
+}
+
+float LightSet::probability(float importance, float total) const {
+  const float uniform = 1.0f / float(size());
+  return total > 0.0f ? kUniformPart * uniform + (1.0f - kUniformPart) * (importance / total)
+                      : uniform;
+}
+
+float LightSet::probability(const Vec3& p, std::size_t index) const {
+  assert(index < size());
+  if (size() == 1) return 1.0f;
+  return probability(importance(p, index), total_importance(p));
+}
+
+std::optional<LightSet::Arrival> LightSet::sample(const Vec3& p, float u_choice,
+                                                  const Vec2& u) const {
   if (size() == 0) return std::nullopt;
-  const std::size_t chosen = std::min(std::size_t(u_choice * float(size())), size() - 1);
-  const float p_chosen = probability(p, chosen);
+  std::size_t chosen = 0;
+  float p_chosen = 1.0f;
+  float total = 0.0f;
+  if (size() > 1) {
+    total = total_importance(p);
+    for (float remaining = u_choice;; ++chosen) {
+      p_chosen = probability(importance(p, chosen), total);
+      remaining -= p_chosen;
+      if (remaining < 0.0f || chosen + 1 == size()) break;
+    }
+  }
 
   if (chosen < lights_.size()) {
-    std::optional<LightSample> s = lights_[chosen]->sample(p, u);
-    if (s) {
-      s->weight /= p_chosen;
-      s->pdf *= p_chosen;
-    }
-    return s;
+    const std::optional<LightSample> s = lights_[chosen]->sample(p, u);
+    if (!s) return std::nullopt;
+    return Arrival{.light = {.d = s->d,
+                             .distance = s->distance,
+                             .weight = s->weight / p_chosen,
+                             .pdf = s->pdf * p_chosen},
+                   .index = chosen,
+                   .p_choice = p_chosen};
   }
 
   std::optional<LightSample> s = environments_[chosen - lights_.size()]->sample(p, u);
@@ -32,18 +80,14 @@ std::optional<LightSample> LightSet::sample(const Vec3& p, float u_choice, const
   Rgb L = s->weight * s->pdf;
   float pdf = p_chosen * s->pdf;
   for (std::size_t i = 0; i < environments_.size(); ++i) {
-    if (lights_.size() + i == chosen) continue;
+    const std::size_t index = lights_.size() + i;
+    if (index == chosen) continue;
     L += environments_[i]->radiance(s->d);
-    pdf += probability(p, lights_.size() + i) * environments_[i]->pdf(s->d);
+    pdf += probability(importance(p, index), total) * environments_[i]->pdf(s->d);
   }
   s->weight = L / pdf;
   s->pdf = pdf;
-  return s;
-}
-
-float LightSet::probability(const Vec3& /*p*/, [[maybe_unused]] std::size_t index) const {
-  assert(index < size());
-  return 1.0f / float(size());
+  return Arrival{.light = *s, .index = chosen, .p_choice = 1.0f};
 }
 
 Rgb LightSet::environment_radiance(const Vec3& d) const {
@@ -53,9 +97,11 @@ Rgb LightSet::environment_radiance(const Vec3& d) const {
 }
 
 float LightSet::environment_pdf(const Vec3& from, const Vec3& d) const {
+  if (environments_.empty()) return 0.0f;
+  const float total = size() > 1 ? total_importance(from) : 0.0f;
   float pdf = 0.0f;
   for (std::size_t i = 0; i < environments_.size(); ++i)
-    pdf += probability(from, lights_.size() + i) * environments_[i]->pdf(d);
+    pdf += probability(importance(from, lights_.size() + i), total) * environments_[i]->pdf(d);
   return pdf;
 }
 

@@ -4,12 +4,16 @@
 #include <memory>
 #include <vector>
 
+#include "core/ray.h"
 #include "light/environment_light.h"
 #include "light/light.h"
 
 namespace brume {
 
 /// All lights of a scene, and the choice among them.
+///
+/// Lights are chosen mostly by `Light::importance`, and with some probability uniformly, because
+/// what stands in between is not known.
 ///
 /// Environments overlap: the sun's disk stands before the sky. They are treated as one technique
 /// that draws from the mixture of their densities and sees the sum of their radiances, so a
@@ -22,9 +26,15 @@ class LightSet {
 
   std::size_t size() const { return lights_.size() + environments_.size(); }
 
-  /// Light arriving at `p` from a light chosen by `u_choice`. The probability of the choice is
-  /// part of `weight` and `pdf`. Nothing when no light arrives that way.
-  std::optional<LightSample> sample(const Vec3& p, float u_choice, const Vec2& u) const;
+  /// Light arriving somewhere from a light that was chosen.
+  struct Arrival {
+    LightSample light;  // the probability of the choice is part of `weight` and `pdf`
+    std::size_t index;  // of the light; of any environment for the environments
+    float p_choice;     // probability of the choice; 1 for environments, which are one technique
+  };
+  /// Light arriving at `p` from a light chosen by `u_choice`. Nothing when no light arrives that
+  /// way.
+  std::optional<Arrival> sample(const Vec3& p, float u_choice, const Vec2& u) const;
   /// Probability that `sample` at `p` chooses light `index`; with the light's own density, the
   /// density of `sample` for a light that a ray found by itself.
   float probability(const Vec3& p, std::size_t index) const;
@@ -34,9 +44,25 @@ class LightSet {
   /// Density of `sample` at `from` for the environment along `d` [1/sr].
   float environment_pdf(const Vec3& from, const Vec3& d) const;
 
+  /// Light number `index`, which is not an environment.
+  const Light& light(std::size_t index) const { return *lights_[index]; }
+  /// The lights that have a pivot.
+  const std::vector<std::size_t>& lights_with_pivot() const { return with_pivot_; }
+  bool has_pivot(std::size_t index) const {
+    return index < lights_.size() && lights_[index]->pivot().has_value();
+  }
+  /// Sum of the importance of the others, which is the same everywhere.
+  float importance_without_pivot() const { return importance_without_pivot_; }
+
  private:
+  float importance(const Vec3& p, std::size_t index) const;
+  float total_importance(const Vec3& p) const;
+  float probability(float importance, float total) const;
+
   std::vector<std::shared_ptr<const Light>> lights_;
   std::vector<std::shared_ptr<const EnvironmentLight>> environments_;
+  std::vector<std::size_t> with_pivot_;  // indices in lights_
+  float importance_without_pivot_ = 0.0f;
 };
 
 }  // namespace brume

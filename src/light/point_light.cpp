@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "light/point_light.h"
 
+#include "light/importance.h"
 #include "light/toward.h"
 
 namespace brume {
@@ -12,6 +13,14 @@ std::optional<LightSample> PointLight::sample(const Vec3& p, const Vec2& /*u*/) 
                      .distance = static_cast<float>(toward.distance),
                      .weight = intensity_ * toward.inverse_square(),
                      .pdf = kInfinity};
+}
+
+float PointLight::importance(const Vec3& p) const {
+  return finite(luminance(intensity_) / length_squared(position_ - p));
+}
+
+std::optional<Light::Pivot> PointLight::pivot() const {
+  return Pivot{.center = position_, .radius = 0.0f};
 }
 
 }  // namespace brume

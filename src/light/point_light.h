@@ -13,6 +13,8 @@ class PointLight final : public Light {
       : position_(position), intensity_(intensity) {}
 
   std::optional<LightSample> sample(const Vec3& p, const Vec2& u) const override;
+  float importance(const Vec3& p) const override;
+  std::optional<Pivot> pivot() const override;
 
  private:
   Vec3 position_;  // [unit]

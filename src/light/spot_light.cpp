@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "light/importance.h"
 #include "light/toward.h"
 
 namespace brume {
@@ -37,6 +38,15 @@ std::optional<LightSample> SpotLight::sample(const Vec3& p, const Vec2& /*u*/) c
                      .distance = static_cast<float>(toward.distance),
                      .weight = intensity_ * (fraction * toward.inverse_square()),
                      .pdf = kInfinity};
+}
+
+float SpotLight::importance(const Vec3& p) const {
+  const Vec3 from_light = p - position_;
+  return finite(luminance(intensity_) * falloff(from_light) / length_squared(from_light));
+}
+
+std::optional<Light::Pivot> SpotLight::pivot() const {
+  return Pivot{.center = position_, .radius = 0.0f};
 }
 
 }  // namespace brume

@@ -15,6 +15,8 @@ class SpotLight final : public Light {
   SpotLight(const glm::dmat4& to_world, const Rgb& intensity, float cutoff_angle, float beam_width);
 
   std::optional<LightSample> sample(const Vec3& p, const Vec2& u) const override;
+  float importance(const Vec3& p) const override;
+  std::optional<Pivot> pivot() const override;
 
  private:
   float falloff(const Vec3& d) const;

@@ -52,6 +52,14 @@ Rgb HomogeneousMedium::transmittance(const Ray& /*ray*/, float t_max, Rng& /*rng
   return transmittance(t_max);
 }
 
+std::optional<Medium::ScatteringAt> HomogeneousMedium::scattering_at(const Ray& /*ray*/, float t,
+                                                                     const Rgb& beta) const {
+  const Rgb collision = sigma_t_ * transmittance(t);
+  return ScatteringAt{.value = albedo_ * collision,
+                      .pdf = glm::dot(normalized_or_uniform(beta), collision),
+                      .phase = phase_};
+}
+
 MediumSummary HomogeneousMedium::summary() const {
   return {.description = fmt::format(
               "homogeneous, sigma_t {:g} {:g} {:g} per unit, albedo {:g} {:g} {:g}, g {:g}",

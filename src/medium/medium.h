@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
 #include "core/ray.h"
@@ -42,6 +43,18 @@ class Medium {
 
   /// Unbiased estimate of exp(-int_0^t_max sigma_t dt); exact where a closed form exists.
   virtual Rgb transmittance(const Ray& ray, float t_max, Rng& rng) const = 0;
+
+  /// Scattering at a point of a flight, where it is known in closed form.
+  struct ScatteringAt {
+    Rgb value;  // transmittance to the point times sigma_s there [1/unit]
+    float pdf;  // density with which `sample_free_flight` scatters there [1/unit]
+    HenyeyGreenstein phase;
+  };
+  /// What a flight with throughput `beta` would meet at `t`; nothing where only tracking can tell.
+  virtual std::optional<ScatteringAt> scattering_at(const Ray& /*ray*/, float /*t*/,
+                                                    const Rgb& /*beta*/) const {
+    return std::nullopt;
+  }
 
   virtual MediumSummary summary() const = 0;
 };

@@ -140,8 +140,7 @@ std::optional<Scene::Emission> Scene::emission(const Vec3& from, const Hit& hit,
   if (light == nullptr) return std::nullopt;
   const Rgb L = light->radiance(hit, d);
   if (is_black(L)) return std::nullopt;
-  return Emission{
-      .L = L, .pdf = lights_.probability(from, light_index_[hit.shape]) * light->pdf(from, hit)};
+  return Emission{.L = L, .light = light_index_[hit.shape], .pdf = light->pdf(from, hit)};
 }
 
 }  // namespace brume

@@ -56,11 +56,12 @@ class Scene {
   /// `medium`: through media and through surfaces that let light pass straight.
   Rgb transmittance(const Ray& ray, float distance, const Medium* medium, Rng& rng) const;
 
-  /// Emission of the surface at `hit` toward the origin of a ray in direction `d`, and the density
-  /// with which light sampling from `from` finds that point; empty when the surface emits nothing.
+  /// Emission of the surface at `hit` toward the origin of a ray in direction `d`; nothing when the
+  /// surface emits nothing that way.
   struct Emission {
-    Rgb L;      // [W/(m^2 sr)]
-    float pdf;  // [1/sr]
+    Rgb L;              // [W/(m^2 sr)]
+    std::size_t light;  // in `lights()`
+    float pdf;          // with which that light, once chosen, is sampled from `from` [1/sr]
   };
   std::optional<Emission> emission(const Vec3& from, const Hit& hit, const Vec3& d) const;
 

@@ -30,9 +30,11 @@ LightSet sun_sky_and_lamp() {
 }
 
 test::LightSampler sampler_of(const LightSet& lights) {
-  return [&lights](Rng& rng) {
+  return [&lights](Rng& rng) -> std::optional<LightSample> {
     const float u_choice = rng.next_float();
-    return lights.sample(Vec3(0.0f), u_choice, rng.next_vec2());
+    const auto arrival = lights.sample(Vec3(0.0f), u_choice, rng.next_vec2());
+    if (!arrival) return std::nullopt;
+    return arrival->light;
   };
 }
 
@@ -65,7 +67,8 @@ TEST(LightSet, TreatsOverlappingEnvironmentsAsOne) {
     ASSERT_LE(max_abs(s->weight * s->pdf - L), 1e-3f * max_abs(L));
   }
   EXPECT_LE(off, 2);
-  EXPECT_NEAR(environment_samples, 15000, 300);
+  const float p_lamp = lights.probability(Vec3(0.0f), 0);
+  EXPECT_NEAR(environment_samples, 20000 * (1.0f - p_lamp), 300);
 }
 
 TEST(LightSet, EnvironmentSamplesFollowTheMixture) {
@@ -111,6 +114,16 @@ TEST(LightSet, ProbabilitiesAddUpToOne) {
   float sum = 0.0f;
   for (std::size_t i = 0; i < lights.size(); ++i) sum += lights.probability({1, 2, 3}, i);
   EXPECT_NEAR(sum, 1.0f, 1e-6f);
+}
+
+TEST(LightSet, ChoosesWhatIsImportantMostOftenAndNothingNever) {
+  const LightSet lights({std::make_shared<PointLight>(Vec3(0, 1, 0), Rgb(1.0f)),
+                         std::make_shared<PointLight>(Vec3(0, 10, 0), Rgb(1.0f))},
+                        {});
+  // A fifth is chosen uniformly, the rest by intensity over squared distance: 1 against 1/100.
+  EXPECT_NEAR(lights.probability(Vec3(0.0f), 0), 0.1 + 0.8 * 1.0 / 1.01, 1e-6);
+  EXPECT_NEAR(lights.probability(Vec3(0.0f), 1), 0.1 + 0.8 * 0.01 / 1.01, 1e-6);
+  EXPECT_TRUE(std::isfinite(lights.probability({0, 1, 0}, 0)));  // on the light itself
 }
 
 TEST(LightSet, WithoutLightsIsDark) {
