@@ -45,7 +45,8 @@ std::vector<Requirement> requirements_of(const SceneParts& parts) {
 
   std::vector<Requirement> list = {
       {"surfaces (Embree)", !parts.surfaces.empty(), count(parts.surfaces.size(), "shape")},
-      {"media", !media.empty(), count(media.size(), "medium")},
+      {"media", !media.empty(),
+       media.size() == 1 ? "1 medium" : fmt::format("{} media", media.size())},
       {"scattering in media", scattering > 0,
        fmt::format("{} of {} scatter", scattering, media.size())},
       {"null-collision tracking", tracked > 0,
