@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <OpenImageIO/imageio.h>
+
+#include <csignal>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "cli/cli_fixture.h"
+#include "support/scene_files.h"
+
+namespace brume::test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
+using ::testing::Not;
+
+/// Every channel of a picture file as it is stored.
+struct Picture {
+  int width = 0, height = 0;
+  std::vector<std::string> channels;
+  std::vector<float> pixels;
+  OIIO::ImageSpec spec;
+};
+
+class RenderCommand : public CliTest {
+ protected:
+  Picture read(const std::string& name) const {
+    const auto input = OIIO::ImageInput::open(path(name).string());
+    if (!input) {
+      ADD_FAILURE() << OIIO::geterror();
+      return {};
+    }
+    const OIIO::ImageSpec& spec = input->spec();
+    Picture picture{spec.width, spec.height, spec.channelnames, {}, spec};
+    picture.pixels.resize(std::size_t(spec.width) * spec.height * spec.nchannels);
+    EXPECT_TRUE(
+        input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, picture.pixels.data()));
+    return picture;
+  }
+  nlohmann::json read_json(const std::string& name) const {
+    std::ifstream file(path(name));
+    return nlohmann::json::parse(file);
+  }
+  /// A scene that takes far longer than any test.
+  void write_long_scene() const {
+    std::string text = kScene;
+    text.replace(text.find("value=\"4\""), 9, "value=\"1000000000\"");
+    write("long.xml", text);
+  }
+  static bool same_bits(const Picture& a, const Picture& b) {
+    return a.channels == b.channels && a.pixels.size() == b.pixels.size() && !a.pixels.empty() &&
+           std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(float)) == 0;
+  }
+};
+
+TEST_F(RenderCommand, WritesAnExrNamedAfterTheInputInTheCurrentFolder) {
+  std::filesystem::create_directory(path("elsewhere"));
+  std::filesystem::rename(path("scene.xml"), path("elsewhere/scene.xml"));
+  const Ended ended = run({"render", "elsewhere/scene.xml"});
+  EXPECT_EQ(ended.exit_code, 0);
+  EXPECT_THAT(ended.out, MatchesRegex("scene.exr \\(16x12\\): 4 samples a pixel in .* s, sample "
+                                      "count reached; relative RMS error .*%, below .*% with 95% "
+                                      "confidence\n"));
+  const Picture picture = read("scene.exr");
+  EXPECT_EQ(picture.width, 16);
+  EXPECT_EQ(picture.height, 12);
+  EXPECT_THAT(picture.channels, ::testing::IsSupersetOf({"R", "G", "B", "A"}));
+  EXPECT_EQ(picture.spec.get_int_attribute("brume:max_depth", -7), -1);
+  EXPECT_EQ(picture.spec.get_string_attribute("brume:seed"), "0");
+  EXPECT_EQ(picture.spec.get_string_attribute("brume:biased_settings"), "none");
+  EXPECT_FALSE(exists("elsewhere/scene.exr"));
+}
+
+TEST_F(RenderCommand, WritesEveryOutputAskedFor) {
+  const Ended ended = run({"render", "scene.xml", "-o", "a.exr", "-o", "b.png", "--output", "c.jpg",
+                           "-o", "d.hdr", "-o", "e.PNG"});
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  for (const char* name : {"a.exr", "b.png", "c.jpg", "d.hdr", "e.PNG"}) {
+    const Picture picture = read(name);
+    EXPECT_EQ(picture.width, 16) << name;
+    EXPECT_EQ(picture.height, 12) << name;
+  }
+  EXPECT_FALSE(exists("scene.exr"));
+}
+
+TEST_F(RenderCommand, AcceptsTheSceneAsAnOption) {
+  EXPECT_EQ(run({"render", "-s", "scene.xml", "-o", "a.exr", "--quiet"}).exit_code, 0);
+  EXPECT_EQ(run({"render", "--scene=scene.xml", "-o", "b.exr", "--quiet"}).exit_code, 0);
+  EXPECT_TRUE(same_bits(read("a.exr"), read("b.exr")));
+}
+
+TEST_F(RenderCommand, OptionsReplaceWhatTheSceneSays) {
+  EXPECT_EQ(
+      run({"render", "scene.xml", "--size", "10x6", "--spp", "2", "--seed", "7", "--max-depth", "1",
+           "-D", "glow=3", "--aov", "albedo,depth", "--json", "s.json", "--quiet"})
+          .exit_code,
+      0);
+  const Picture picture = read("scene.exr");
+  EXPECT_EQ(picture.width, 10);
+  EXPECT_EQ(picture.height, 6);
+  EXPECT_THAT(picture.channels,
+              ::testing::IsSupersetOf({"albedo.R", "albedo.G", "albedo.B", "depth.Z"}));
+  EXPECT_EQ(picture.spec.get_int_attribute("brume:max_depth"), 1);
+  EXPECT_EQ(picture.spec.get_string_attribute("brume:define:glow"), "3");
+  EXPECT_FLOAT_EQ(picture.pixels[0], 3.0f);  // the sky beside the ball
+  EXPECT_EQ(read_json("s.json")["mean_spp"], 2.0);
+  EXPECT_EQ(read_json("s.json")["seed"], 7);
+}
+
+TEST_F(RenderCommand, ExposureBrightensTheTonedPictureOnly) {
+  EXPECT_EQ(run({"render", "scene.xml", "-D", "glow=0.1", "-o", "a.exr", "-o", "a.png"}).exit_code,
+            0);
+  EXPECT_EQ(run({"render", "scene.xml", "-D", "glow=0.1", "-o", "b.exr", "-o", "b.png",
+                 "--exposure", "2"})
+                .exit_code,
+            0);
+  EXPECT_TRUE(same_bits(read("a.exr"), read("b.exr")));
+  EXPECT_GT(read("b.png").pixels[0], 1.5f * read("a.png").pixels[0]);
+}
+
+TEST_F(RenderCommand, StatisticsAreCompleteJson) {
+  EXPECT_EQ(run({"render", "scene.xml", "--spp", "80", "--json", "s.json"}).exit_code, 0);
+  const nlohmann::json s = read_json("s.json");
+  EXPECT_TRUE(s["version"].is_string());
+  EXPECT_EQ(s["input"], "scene.xml");
+  EXPECT_EQ(s["outputs"], nlohmann::json::array({"scene.exr"}));
+  EXPECT_EQ(s["width"], 16);
+  EXPECT_EQ(s["height"], 12);
+  EXPECT_EQ(s["seed"], 0);
+  EXPECT_EQ(s["stopped"], "sample count reached");
+  EXPECT_EQ(s["min_spp"], 80);
+  EXPECT_EQ(s["mean_spp"], 80.0);
+  EXPECT_EQ(s["bad_samples"], 0);
+  EXPECT_EQ(s["biased_settings"], nlohmann::json::array());
+  EXPECT_GT(s["load_seconds"], 0.0);
+  EXPECT_GT(s["render_seconds"], 0.0);
+  EXPECT_GT(s["relative_rms_error"], 0.0);
+  EXPECT_LT(s["relative_rms_error"], 1.0);
+  EXPECT_GT(s["relative_rms_error_bound_95"], s["relative_rms_error"]);
+}
+
+TEST_F(RenderCommand, AnUnknownErrorIsNullInJson) {
+  EXPECT_EQ(run({"render", "scene.xml", "--spp", "1", "--json", "s.json"}).exit_code, 0);
+  EXPECT_TRUE(read_json("s.json")["relative_rms_error"].is_null());
+}
+
+TEST_F(RenderCommand, QuietWritesThePictureAndNothingElse) {
+  for (const bool on_terminal : {false, true}) {
+    const std::vector<std::string> words{"render", "scene.xml", "--quiet"};
+    const Ended ended = on_terminal ? run_on_terminal(words) : run(words);
+    EXPECT_EQ(ended.exit_code, 0);
+    EXPECT_EQ(ended.out, "");
+    EXPECT_EQ(ended.err, "");
+    EXPECT_TRUE(exists("scene.exr"));
+  }
+}
+
+TEST_F(RenderCommand, ProgressIsPlainLinesInAFileAndABarOnATerminal) {
+  const Ended in_file = run({"render", "scene.xml"});
+  EXPECT_THAT(in_file.err, MatchesRegex("100%  4/4 spp  0:00 left .*samples/s\n"));
+  EXPECT_THAT(in_file.err, Not(HasSubstr("\r")));
+  EXPECT_THAT(in_file.err, Not(HasSubstr("\x1b")));
+
+  const Ended on_terminal = run_on_terminal({"render", "scene.xml"});
+  EXPECT_THAT(on_terminal.err, HasSubstr("\r100%  [========================================]"));
+  EXPECT_THAT(on_terminal.err, ::testing::EndsWith("\x1b[K\r\n"));
+  EXPECT_EQ(on_terminal.exit_code, 0);
+}
+
+TEST_F(RenderCommand, StopsWhenTheTimeIsSpent) {
+  write_long_scene();
+  const Ended ended = run({"render", "long.xml", "--time", "2s", "--json", "s.json"});
+  EXPECT_EQ(ended.exit_code, 0);
+  EXPECT_GT(ended.seconds, 1.5);
+  EXPECT_LT(ended.seconds, 4.0);
+  EXPECT_THAT(ended.out, HasSubstr("time spent"));
+  EXPECT_EQ(read_json("s.json")["stopped"], "time spent");
+  EXPECT_GT(read_json("s.json")["min_spp"], 0);
+  EXPECT_TRUE(exists("long.exr"));
+}
+
+TEST_F(RenderCommand, TheStopRuleThatIsReachedFirstCounts) {
+  const Ended ended = run({"render", "scene.xml", "--spp", "3", "--time", "1h"});
+  EXPECT_EQ(ended.exit_code, 0);
+  EXPECT_THAT(ended.out, HasSubstr("3 samples a pixel"));
+  EXPECT_LT(ended.seconds, 60.0);
+}
+
+TEST_F(RenderCommand, CtrlCSavesWhatWasRendered) {
+  write_long_scene();
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const Ended ended = run_brume(
+        {.arguments = {"render", "long.xml", "-o", "cut.exr", "-o", "cut.png", "--json", "s.json"},
+         .folder = path(""),
+         .when_listening = [signal](pid_t pid) {
+           ::usleep(300'000);
+           ::kill(pid, signal);
+         }});
+    EXPECT_EQ(ended.exit_code, 130);
+    EXPECT_THAT(ended.out, HasSubstr("interrupted"));
+    EXPECT_EQ(read_json("s.json")["stopped"], "interrupted");
+    const Picture picture = read("cut.exr");
+    EXPECT_EQ(picture.width, 16);
+    EXPECT_GT(picture.pixels[0], 0.0f);
+    EXPECT_EQ(picture.spec.get_string_attribute("brume:stopped"), "interrupted");
+    EXPECT_TRUE(exists("cut.png"));
+    std::filesystem::remove(path("cut.exr"));
+  }
+}
+
+TEST_F(RenderCommand, AnOlderPictureStaysUntilTheNewOneIsWhole) {
+  write("scene.exr", "an older picture");
+  write_long_scene();
+  // Killed in the middle: the older file is untouched, and nothing else is left behind.
+  const Ended ended = run_brume({.arguments = {"render", "long.xml", "-o", "scene.exr"},
+                                 .folder = path(""),
+                                 .when_listening = [](pid_t pid) { ::kill(pid, SIGKILL); }});
+  EXPECT_EQ(ended.exit_code, 128 + SIGKILL);
+  std::ifstream file(path("scene.exr"));
+  std::string line;
+  std::getline(file, line);
+  EXPECT_EQ(line, "an older picture");
+  EXPECT_EQ(run({"render", "scene.xml", "--quiet"}).exit_code, 0);
+  EXPECT_EQ(read("scene.exr").width, 16);
+}
+
+TEST_F(RenderCommand, TheBitsDoNotDependOnTheNumberOfThreads) {
+  const std::vector<std::string> common{"render", "scene.xml", "--spp", "40",
+                                        "--size", "33x21",     "--aov", "albedo,depth"};
+  for (const char* threads : {"1", "2", "7"}) {
+    std::vector<std::string> words = common;
+    words.insert(words.end(), {"--threads", threads, "-o", std::string(threads) + ".exr"});
+    EXPECT_EQ(run(words).exit_code, 0);
+  }
+  const Picture one = read("1.exr");
+  EXPECT_TRUE(same_bits(one, read("2.exr")));
+  EXPECT_TRUE(same_bits(one, read("7.exr")));
+
+  std::vector<std::string> words = common;
+  words.insert(words.end(), {"--seed", "1", "-o", "other.exr"});
+  EXPECT_EQ(run(words).exit_code, 0);
+  EXPECT_FALSE(same_bits(one, read("other.exr")));
+}
+
+TEST_F(RenderCommand, RendersABareVolumeAndPrintsWhatItChose) {
+  write("cloud.vol", vol_bytes({8, 8, 8}, 1, [](int x, int y, int z, int) {
+          return double((x - 4) * (x - 4) + (y - 4) * (y - 4) + (z - 4) * (z - 4) < 12);
+        }));
+  const Ended ended = run({"render", "cloud.vol", "--size", "24x16", "--spp", "4"});
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  for (const char* chosen : {"note: ", "camera", "sun", "density"})
+    EXPECT_THAT(ended.err, HasSubstr(chosen));
+  EXPECT_EQ(read("cloud.exr").width, 24);
+
+  const Ended overridden =
+      run({"render", "cloud.vol", "--size", "24x16", "--spp", "4", "--density-scale", "40", "--g",
+           "0", "--albedo", "0.5,0.8,1", "--grid", "", "-o", "other.exr"});
+  EXPECT_EQ(overridden.exit_code, 0) << overridden.err;
+  EXPECT_FALSE(same_bits(read("cloud.exr"), read("other.exr")));
+}
+
+}  // namespace
+}  // namespace brume::test
