@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "core/ray.h"
@@ -12,7 +13,7 @@ namespace brume {
 struct Hit {
   float t;              // along the ray [unit], positive; to the surface itself, not to `p`
   Vec3 p;               // on the surface, to within `error` [unit]
-  float error;          // how far `leave` must step along `n` [unit]; see surface_error()
+  float error;          // how far any ray must step along `n` to leave [unit]; surface_error()
   Vec3 n;               // unit geometric normal, on the side that the shape declares as outside
   Vec3 n_shading;       // unit interpolated normal, in the hemisphere of `n`
   Vec3 dp_du;           // tangent; any length, may be zero
@@ -22,7 +23,12 @@ struct Hit {
   /// Ray that leaves the point in direction `d`, moved off the surface by the error bound and no
   /// more, so that it neither finds the surface again nor loses optical depth.
   Ray leave(const Vec3& d) const {
-    return {.o = glm::dot(d, n) >= 0.0f ? p + error * n : p - error * n, .d = d};
+    // Only a direction within rounding of the surface can sink, by a share of the surface's extent,
+    // which may be thousands of times the thickness of what lies behind.
+    constexpr float kGrazing = 0x1p-20f;
+    const float cosine = glm::dot(d, n);
+    const float step = std::abs(cosine) < kGrazing ? error : rounding_error();
+    return {.o = cosine >= 0.0f ? p + step * n : p - step * n, .d = d};
   }
 
   /// As `leave`, for a ray that must end at the point `distance` along `d` [unit, may be infinite]:
@@ -35,6 +41,13 @@ struct Hit {
     const double length = glm::length(to_target);
     distance = float(length);
     return length > 0.0 ? Ray{.o = ray.o, .d = Vec3(to_target / length)} : ray;
+  }
+
+ private:
+  /// The part of `error` that is the rounding of `p` and of a step from it; the share of `error`
+  /// itself stands for surfaces through the origin, which are intersected in double.
+  float rounding_error() const {
+    return std::min(0x1p-24f * 3.0f * glm::dot(glm::abs(n), glm::abs(p)) + 0x1p-20f * error, error);
   }
 };
 

@@ -100,6 +100,25 @@ TEST(Leaving, ARoomOfRectanglesLetsNoRayOut) {
   }
 }
 
+TEST(Leaving, AWideSlabIsKeptAndLosesNoneOfItsThickness) {
+  // Thickness 1 and width 2e4: a step by a rounding of the width would skip a hundredth of it.
+  const glm::dmat4 to_world(1e4, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 1e4, 0, 0, 0, 0, 1);
+  const RayQueries queries = test::queries(std::make_shared<Cube>(to_world, false));
+  Rng rng(5);
+  for (int i = 0; i < 100000; ++i) {
+    const Vec3 o(rng.next_float(), 1.0f + rng.next_float(), rng.next_float());
+    const Vec3 d = -sample_cosine_hemisphere(rng.next_vec2());
+    const std::optional<Hit> top = queries.intersect({o, Vec3(d.x, d.z, d.y)}, kInfinity);
+    ASSERT_TRUE(top);
+    const Ray inside = top->leave(Vec3(d.x, d.z, d.y));
+    ASSERT_NEAR(inside.o.y, 0.5f, 2e-7f);
+    const std::optional<Hit> bottom = queries.intersect(inside, kInfinity);
+    ASSERT_TRUE(bottom);
+    ASSERT_LT(bottom->p.y, 0.0f);
+    ASSERT_FALSE(queries.intersect(bottom->leave(inside.d), kInfinity));
+  }
+}
+
 TEST(Leaving, StepsAreAFewRoundingsLong) {
   const RayQueries queries =
       test::queries(std::make_shared<Sphere>(Vec3(0.0f, 0.0f, 0.0f), 1.0f, false));
