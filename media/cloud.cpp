@@ -11,10 +11,11 @@ namespace {
 
 // A cumulus is a heap of rising bubbles: each throws smaller ones from its upper side. The heap of
 // spheres gives the towers; bumps of falling size, pushed around by turbulence, give the florets.
-// All lengths are in voxels, y is up.
+// y is up.
 
-constexpr glm::ivec3 kSize(208, 136, 168);
-constexpr double kBase = 14.0;  // height of the flat underside
+constexpr glm::ivec3 kSize(256, 168, 192);  // [voxels]
+constexpr double kVoxel = 0.78;             // all other lengths are in units of 1 / kVoxel voxels
+constexpr double kBase = 14.0;              // height of the flat underside
 
 struct Bubble {
   Vec3 center;
@@ -54,8 +55,8 @@ std::vector<Bubble> make_heap() {
   Random random;
   std::vector<Bubble> heap;
   const Bubble towers[] = {
-      {{100, 38, 84}, 34}, {{92, 62, 80}, 25},   {{62, 30, 78}, 22}, {{140, 32, 92}, 25},
-      {{146, 44, 84}, 17}, {{112, 26, 112}, 20}, {{36, 22, 88}, 12}, {{172, 24, 84}, 13},
+      {{100, 40, 84}, 33}, {{94, 64, 80}, 27},   {{62, 30, 78}, 22}, {{140, 32, 92}, 25},
+      {{146, 46, 84}, 19}, {{112, 26, 112}, 20}, {{36, 22, 88}, 12}, {{172, 24, 84}, 13},
       {{84, 26, 56}, 18},  {{124, 24, 62}, 16},
   };
   for (const Bubble& tower : towers) grow(tower, 3, random, heap);
@@ -67,18 +68,20 @@ DenseGrid<float> distance_to(const std::vector<Bubble>& heap) {
   constexpr double kReach = 14.0;
   DenseGrid<float> distance(kSize, float(kReach));
   for (const Bubble& b : heap) {
-    const glm::ivec3 lo = glm::max(glm::ivec3(b.center - b.radius - kReach), glm::ivec3(0));
-    const glm::ivec3 hi = glm::min(glm::ivec3(b.center + b.radius + kReach), kSize - 1);
+    const double reach = b.radius + kReach;
+    const glm::ivec3 lo = glm::max(glm::ivec3((b.center - reach) / kVoxel), glm::ivec3(0));
+    const glm::ivec3 hi = glm::min(glm::ivec3((b.center + reach) / kVoxel), kSize - 1);
     for (int z = lo.z; z <= hi.z; ++z)
       for (int y = lo.y; y <= hi.y; ++y)
         for (int x = lo.x; x <= hi.x; ++x)
-          distance(x, y, z) =
-              std::min(distance(x, y, z), float(glm::length(Vec3(x, y, z) - b.center) - b.radius));
+          distance(x, y, z) = std::min(
+              distance(x, y, z), float(glm::length(kVoxel * Vec3(x, y, z) - b.center) - b.radius));
   }
   return distance;
 }
 
-float trilinear(const DenseGrid<float>& grid, const Vec3& p, float outside) {
+float trilinear(const DenseGrid<float>& grid, Vec3 p, float outside) {
+  p /= kVoxel;
   const Vec3 floor = glm::floor(p);
   const glm::ivec3 i(floor);
   const Vec3 f = p - floor;
@@ -100,9 +103,10 @@ double density_at(const Vec3& p, const DenseGrid<float>& distance) {
   if (d > 13.0) return 0.0;
 
   // Florets: outward bumps whose size falls with each octave.
-  d -= 7.0 * (bumps(bent / 17.0, 3) - 0.45);
-  d -= 3.8 * (bumps(bent / 8.5, 7) - 0.45);
-  d -= 2.0 * (bumps(p / 4.6, 13) - 0.45);
+  d -= 7.5 * (bumps(bent / 17.0, 3) - 0.45);
+  d -= 4.4 * (bumps(bent / 8.5, 7) - 0.45);
+  d -= 2.4 * (bumps(bent / 4.4, 13) - 0.45);
+  d -= 1.1 * (bumps(p / 2.3, 17) - 0.45);
 
   // The underside evaporates along a nearly flat, ragged level.
   const double rag = 3.0 * perlin_octaves(p / 26.0, 4, 0.55, 57);
@@ -111,7 +115,7 @@ double density_at(const Vec3& p, const DenseGrid<float>& distance) {
 
   // Edges are crisp where air rises and frayed where it sinks and mixes.
   const double height = smooth_step(kBase, 70.0, p.y);
-  const double edge = glm::mix(7.0, 2.2, height);
+  const double edge = glm::mix(6.0, 1.3, height);
   double density = smooth_step(0.0, edge, -d);
   const double fray = 0.5 + 0.5 * perlin_octaves(bent / 7.0, 4, 0.6, 91);
   density *= glm::mix(smooth_step(0.15, 0.75, fray), 1.0, smooth_step(0.0, edge * 1.8, -d));
@@ -139,7 +143,7 @@ DenseGrid<float> make_cloud() {
   const DenseGrid<float> distance = distance_to(make_heap());
   DenseGrid<float> density(kSize);
   density.for_each([&](int x, int y, int z) {
-    const Vec3 p(x, y, z);
+    const Vec3 p = kVoxel * Vec3(x, y, z);
     density(x, y, z) = float(std::max(density_at(p, distance), shreds_at(p, distance)));
   });
   return density;

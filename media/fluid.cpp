@@ -4,15 +4,11 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <utility>
 
 namespace brume::media {
 namespace {
 
 using Vec3f = glm::vec3;
-
-constexpr Vec3f kCenter(0.5f, 0.5f, 0.5f);  // where values of a cell live
-constexpr Vec3f kFaceX(0.0f, 0.5f, 0.5f), kFaceY(0.5f, 0.0f, 0.5f), kFaceZ(0.5f, 0.5f, 0.0f);
 
 /// The eight values around `p` [voxels of this grid], clamped at the sides.
 template <class Value>
@@ -49,6 +45,32 @@ Value sample(const DenseGrid<Value>& grid, const Vec3f& p) {
   return Corners<Value>(grid, p).interpolated();
 }
 
+/// Where the fluid at `p` was `dt` steps ago; `velocity` is given at the centres of cells, and
+/// these are the integer points.
+Vec3f came_from(const DenseGrid<Vec3f>& velocity, const Vec3f& p, float dt) {
+  const Vec3f middle = p - 0.5f * dt * sample(velocity, p);
+  return p - dt * sample(velocity, middle);
+}
+
+/// `field` moved one step along: there and back shows the error of one way, half of which is then
+/// taken off. Its values live at integer points plus `offset`.
+template <class Value>
+DenseGrid<Value> moved(const DenseGrid<Value>& field, const Vec3f& offset,
+                       const DenseGrid<Vec3f>& velocity) {
+  DenseGrid<Value> forward(field.size()), result(field.size());
+  DenseGrid<Vec3f> from(field.size());
+  field.for_each([&](int x, int y, int z) {
+    from(x, y, z) = came_from(velocity, Vec3f(x, y, z) + offset, 1.0f) - offset;
+    forward(x, y, z) = sample(field, from(x, y, z));
+  });
+  field.for_each([&](int x, int y, int z) {
+    const Vec3f to = came_from(velocity, Vec3f(x, y, z) + offset, -1.0f) - offset;
+    const Value corrected = forward(x, y, z) + 0.5f * (field(x, y, z) - sample(forward, to));
+    result(x, y, z) = Corners<Value>(field, from(x, y, z)).clamped(corrected);
+  });
+  return result;
+}
+
 }  // namespace
 
 Fluid::Fluid(const glm::ivec3& size)
@@ -59,29 +81,9 @@ Fluid::Fluid(const glm::ivec3& size)
       pressure_(size),
       carried_(size) {}
 
-Vec3f Fluid::velocity(const Vec3f& p) const {
-  return {sample(u_, p - kFaceX), sample(v_, p - kFaceY), sample(w_, p - kFaceZ)};
-}
-
-Vec3f Fluid::came_from(const Vec3f& p, float dt) const {
-  const Vec3f middle = p - 0.5f * dt * velocity(p);
-  return p - dt * velocity(middle);
-}
-
-template <class Value>
-DenseGrid<Value> Fluid::moved(const DenseGrid<Value>& field, const Vec3f& offset) const {
-  DenseGrid<Value> forward(field.size()), result(field.size());
-  field.for_each([&](int x, int y, int z) {
-    const Vec3f p = Vec3f(x, y, z) + offset;
-    forward(x, y, z) = sample(field, came_from(p, 1.0f) - offset);
-  });
-  field.for_each([&](int x, int y, int z) {
-    const Vec3f p = Vec3f(x, y, z) + offset;
-    const Value back = sample(forward, came_from(p, -1.0f) - offset);
-    const Value corrected = forward(x, y, z) + 0.5f * (field(x, y, z) - back);
-    result(x, y, z) = Corners<Value>(field, came_from(p, 1.0f) - offset).clamped(corrected);
-  });
-  return result;
+Vec3f Fluid::center_velocity(int x, int y, int z) const {
+  return 0.5f * Vec3f(u_(x, y, z) + u_(x + 1, y, z), v_(x, y, z) + v_(x, y + 1, z),
+                      w_(x, y, z) + w_(x, y, z + 1));
 }
 
 void Fluid::add_buoyancy(float acceleration, float smoke_weight) {
@@ -93,17 +95,20 @@ void Fluid::add_buoyancy(float acceleration, float smoke_weight) {
 }
 
 void Fluid::add_whirls(float strength) {
-  DenseGrid<Vec3f> curl(size_);
+  DenseGrid<Vec3f> velocity(size_), curl(size_), force(size_);
+  const auto is_inside = [&](int x, int y, int z) {
+    return x > 0 && y > 0 && z > 0 && x < size_.x - 1 && y < size_.y - 1 && z < size_.z - 1;
+  };
+  velocity.for_each([&](int x, int y, int z) { velocity(x, y, z) = center_velocity(x, y, z); });
   curl.for_each([&](int x, int y, int z) {
-    const Vec3f p = Vec3f(x, y, z) + kCenter;
-    const auto along = [&](const Vec3f& d) { return 0.5f * (velocity(p + d) - velocity(p - d)); };
-    const Vec3f dx = along({1, 0, 0}), dy = along({0, 1, 0}), dz = along({0, 0, 1});
+    if (!is_inside(x, y, z)) return;
+    const Vec3f dx = 0.5f * (velocity(x + 1, y, z) - velocity(x - 1, y, z));
+    const Vec3f dy = 0.5f * (velocity(x, y + 1, z) - velocity(x, y - 1, z));
+    const Vec3f dz = 0.5f * (velocity(x, y, z + 1) - velocity(x, y, z - 1));
     curl(x, y, z) = {dy.z - dz.y, dz.x - dx.z, dx.y - dy.x};
   });
-  DenseGrid<Vec3f> force(size_);
   force.for_each([&](int x, int y, int z) {
-    if (x == 0 || y == 0 || z == 0 || x == size_.x - 1 || y == size_.y - 1 || z == size_.z - 1)
-      return;
+    if (!is_inside(x, y, z)) return;
     const auto size_at = [&](int i, int j, int k) { return glm::length(curl(i, j, k)); };
     const Vec3f gradient = 0.5f * Vec3f(size_at(x + 1, y, z) - size_at(x - 1, y, z),
                                         size_at(x, y + 1, z) - size_at(x, y - 1, z),
@@ -130,7 +135,7 @@ void Fluid::project() {
 
   // Over-relaxation, cells of one colour of a checkerboard at a time: the order of the threads
   // does not matter. Outside the open sides the pressure is 0; the floor has none across it.
-  constexpr int kSweeps = 40;
+  constexpr int kSweeps = 30;
   constexpr float kRelaxation = 1.85f;
   const auto p = [&](int x, int y, int z) {
     return pressure_.contains(x, y, z) ? pressure_(x, y, z) : 0.0f;
@@ -153,15 +158,20 @@ void Fluid::project() {
   w_.for_each([&](int x, int y, int z) { w_(x, y, z) -= p(x, y, z) - p(x, y, z - 1); });
 }
 
+void Fluid::move() {
+  DenseGrid<Vec3f> velocity(size_);
+  velocity.for_each([&](int x, int y, int z) { velocity(x, y, z) = center_velocity(x, y, z); });
+  carried_ = moved(carried_, Vec3f(0.0f), velocity);
+  u_ = moved(u_, {-0.5f, 0.0f, 0.0f}, velocity);
+  v_ = moved(v_, {0.0f, -0.5f, 0.0f}, velocity);
+  w_ = moved(w_, {0.0f, 0.0f, -0.5f}, velocity);
+}
+
 void Fluid::step(float acceleration, float smoke_weight, float whirl) {
   add_buoyancy(acceleration, smoke_weight);
   add_whirls(whirl);
   project();
-  DenseGrid<float> u = moved(u_, kFaceX), v = moved(v_, kFaceY), w = moved(w_, kFaceZ);
-  carried_ = moved(carried_, kCenter);
-  u_ = std::move(u);
-  v_ = std::move(v);
-  w_ = std::move(w);
+  move();
 }
 
 }  // namespace brume::media

@@ -25,10 +25,8 @@ class Fluid {
   void add_buoyancy(float acceleration, float smoke_weight);
   void add_whirls(float strength);
   void project();
-  Vec3f velocity(const Vec3f& p) const;
-  Vec3f came_from(const Vec3f& p, float dt) const;
-  template <class Value>
-  DenseGrid<Value> moved(const DenseGrid<Value>& field, const Vec3f& offset) const;
+  void move();
+  Vec3f center_velocity(int x, int y, int z) const;
 
   glm::ivec3 size_;
   DenseGrid<float> u_, v_, w_;  // velocity through the faces whose normal is x, y, z [voxels/step]

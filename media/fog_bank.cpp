@@ -16,17 +16,16 @@ double density_at(const Vec3& p) {
   const double drift = perlin_octaves(bent / Vec3(46.0, 16.0, 30.0), 5, 0.55, 223);
 
   // The top rolls; below it the fog thickens towards the ground.
-  const double top = 15.0 + 11.0 * perlin_octaves(Vec3(bent.x, 0.0, bent.z) / 44.0, 4, 0.5, 241);
-  const double h = p.y / std::max(top, 4.0);
+  const double top = 14.0 + 16.0 * perlin_octaves(Vec3(bent.x, 0.0, bent.z) / 44.0, 4, 0.5, 241);
+  const double h = p.y / std::max(top, 3.0);
   const double falloff = std::exp(-1.6 * h * h);
-  const double wisps =
-      glm::mix(1.0, smooth_step(-0.35, 0.55, drift), 0.45 + 0.55 * std::min(h, 1.0));
+  const double wisps = glm::mix(1.0, smooth_step(-0.3, 0.5, drift), 0.6 + 0.4 * std::min(h, 1.0));
 
   // It thins out towards the sides, so that no box shows.
   const auto side = [](double x, int n) {
     return smooth_step(0.0, 26.0, std::min(x, double(n - 1) - x));
   };
-  const double sides = side(p.x + 10.0 * drift, kSize.x) * side(p.z + 10.0 * drift, kSize.z);
+  const double sides = side(p.x + 14.0 * drift, kSize.x) * side(p.z + 14.0 * drift, kSize.z);
   const double ceiling = 1.0 - smooth_step(0.6, 1.0, p.y / double(kSize.y - 1));
   return falloff * wisps * sides * ceiling;
 }

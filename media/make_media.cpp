@@ -78,7 +78,7 @@ void make_all(const std::string& folder) {
 
   const DenseGrid<float> cloud = make_cloud();
   write(folder + "/cloud.vdb",
-        {to_fog("density", cloud, kThreshold, centered(cloud.size(), 5.0, 600.0))});
+        {to_fog("density", cloud, kThreshold, centered(cloud.size(), 4.0, 600.0))});
 
   const DenseGrid<float> fog = make_fog_bank();
   write(folder + "/fog_bank.vdb",

@@ -9,14 +9,15 @@
 namespace brume::media {
 namespace {
 
-constexpr glm::ivec3 kSize(96, 184, 96);  // [voxels], y up
-constexpr int kSteps = 190;
+constexpr glm::ivec3 kSize(56, 112, 56);  // [voxels], y up
+constexpr int kSteps = 110;
 constexpr glm::vec3 kWarm(0.95f, 0.62f, 0.34f), kCool(0.42f, 0.62f, 0.90f);  // linear Rec. 709
 
 /// Two glowing discs on the floor. Their edges flicker, so that the plumes break up.
 void feed(DenseGrid<glm::vec3>& carried, int step) {
-  constexpr double kRadius = 8.5;
-  const Vec3 centers[] = {{36.0, 3.0, 45.0}, {60.0, 3.0, 51.0}};
+  constexpr double kWidth = kSize.x;
+  constexpr double kRadius = 0.1 * kWidth;
+  const Vec3 centers[] = {{0.38 * kWidth, 3.0, 0.46 * kWidth}, {0.62 * kWidth, 3.0, 0.54 * kWidth}};
   for (int smoke = 0; smoke < 2; ++smoke)
     for (int z = 0; z < kSize.z; ++z)
       for (int y = 0; y < 6; ++y)
@@ -39,7 +40,7 @@ Smoke make_smoke() {
   Fluid fluid(kSize);
   for (int step = 0; step < kSteps; ++step) {
     feed(fluid.carried(), step);
-    fluid.step(/*acceleration=*/0.06f, /*smoke_weight=*/0.05f, /*whirl=*/0.18f);
+    fluid.step(/*acceleration=*/0.09f, /*smoke_weight=*/0.05f, /*whirl=*/0.08f);
     fluid.carried().for_each([&](int x, int y, int z) {
       // Smoke disperses slowly, heat radiates away faster.
       fluid.carried()(x, y, z) *= glm::vec3(0.997f, 0.997f, 0.988f);

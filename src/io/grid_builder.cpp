@@ -86,9 +86,18 @@ typename OpenType<Value>::Grid::Ptr in_float(const openvdb::GridBase::Ptr& sourc
   }
   const auto wide = openvdb::gridPtrCast<DoubleGrid>(source);
   require_sound_tree(wide->tree(), label);
-  const auto narrow = FloatGrid::create(
-      typename FloatGrid::TreePtrType(new typename FloatGrid::TreeType(wide->tree())));
+  // OpenVDB converts trees of doubles, but not of vectors of them.
+  using Narrow = typename FloatGrid::ValueType;
+  const auto narrow = FloatGrid::create(Narrow(wide->background()));
   narrow->setGridClass(wide->getGridClass());
+  auto accessor = narrow->getAccessor();
+  for (auto value = wide->cbeginValueAll(); value; ++value) {
+    if (!value.isValueOn() && *value == wide->background()) continue;
+    if (value.isVoxelValue())
+      accessor.setValue(value.getCoord(), Narrow(*value));
+    else
+      narrow->sparseFill(value.getBoundingBox(), Narrow(*value));
+  }
   return narrow;
 }
 
@@ -104,6 +113,24 @@ glm::dmat4 placement(const VolFile& vol, const VolumeRequest& request) {
 int wrapped_index(int i, int n, Wrap wrap) {
   if (wrap == Wrap::kRepeat) return (i + n) % n;
   return std::clamp(i, 0, n - 1);  // one layer of a mirror is a clamp too
+}
+
+/// As for trees: OpenVDB takes a NaN for the background when it fills a tree from dense data.
+void require_finite(const VolFile& vol, const glm::dmat4& world_from_index,
+                    const std::string& label) {
+  const auto is_bad = [](float v) { return !std::isfinite(v); };
+  const std::size_t channels = std::size_t(vol.channels);
+  std::uint64_t count = 0;
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < vol.values.size(); i += channels) {
+    const auto voxel = vol.values.begin() + std::ptrdiff_t(i);
+    if (std::none_of(voxel, voxel + vol.channels, is_bad)) continue;
+    if (count++ == 0) first = i / channels;
+  }
+  if (count == 0) return;
+  const std::size_t nx = std::size_t(vol.resolution.x), ny = std::size_t(vol.resolution.y);
+  fail_as_non_finite(count, {int(first % nx), int(first / nx % ny), int(first / nx / ny)},
+                     world_from_index, label);
 }
 
 /// Stores the voxels that lie one step outside 0 .. n - 1.
@@ -152,10 +179,8 @@ std::shared_ptr<const Grid<Value>> build_grid(openvdb::GridBase::Ptr source,
   if (!zero_background)
     notices.push_back(fmt::format(
         "{}: the value outside its voxels is not 0; the volume ends with its voxels", label));
-  bool all_zero = true;
-  for (auto value = tree.cbeginValueOn(); value && all_zero; ++value)
-    all_zero = value.getValue() == zero;
-  if (all_zero) notices.push_back(fmt::format("{}: every voxel is 0, rendered as vacuum", label));
+  if (is_zero(tree))
+    notices.push_back(fmt::format("{}: every voxel is 0, rendered as vacuum", label));
 
   // Trilinear interpolation of the outermost voxels falls to the background within one voxel.
   const bool fades = request.interpolation == Interpolation::kTrilinear && zero_background;
@@ -174,16 +199,16 @@ std::shared_ptr<const Grid<Value>> build_grid(const VolFile& vol, const VolumeRe
   require_invertible(world_from_index, request.path);
 
   const glm::ivec3 n = vol.resolution;
+  require_finite(vol, world_from_index, request.path);
   // The type asks for mutable data, and only reads it.
   auto* values = reinterpret_cast<OpenValue*>(const_cast<float*>(vol.values.data()));
   const openvdb::tools::Dense<OpenValue, openvdb::tools::LayoutXYZ> dense(
       openvdb::CoordBBox(openvdb::Coord(0), openvdb::Coord(n.x - 1, n.y - 1, n.z - 1)), values);
   OpenGrid grid(openvdb::zeroVal<OpenValue>());
   openvdb::tools::copyFromDense(dense, grid, openvdb::zeroVal<OpenValue>());
-  require_finite(grid.tree(), world_from_index, request.path);
   clean(grid.tree(), request.path, notices);
   if (request.wrap != Wrap::kBackground) add_wrapped_layer(grid, n, request.wrap);
-  if (grid.tree().empty())
+  if (is_zero(grid.tree()))
     notices.push_back(fmt::format("{}: every voxel is 0, rendered as vacuum", request.path));
   const Box3 box{Vec3(-0.5f), Vec3(n) - 0.5f};
   return finish<Value>(grid, world_from_index, box, request.interpolation, request.wrap);

@@ -67,6 +67,16 @@ void require_sound_tree(const Tree& tree, const std::string& label) {
   }
 }
 
+void fail_as_non_finite(std::uint64_t count, const glm::ivec3& first,
+                        const glm::dmat4& world_from_index, const std::string& label) {
+  const glm::dvec4 world = world_from_index * glm::dvec4(first, 1.0);
+  throw Error(fmt::format(
+      "{}: {} {} NaN, infinite or too large for float; the first is voxel ({}, {}, {}), at "
+      "({:g}, {:g}, {:g})",
+      label, count, count == 1 ? "voxel is" : "voxels are", first.x, first.y, first.z, world.x,
+      world.y, world.z));
+}
+
 template <class Tree>
 void require_finite(const Tree& tree, const glm::dmat4& world_from_index,
                     const std::string& label) {
@@ -86,13 +96,8 @@ void require_finite(const Tree& tree, const glm::dmat4& world_from_index,
   }
   for (auto tile = tiles_of(tree); tile; ++tile)
     if (!is_finite(tile.getValue())) report(tile.getCoord(), tile.getVoxelCount());
-  if (count == 0) return;
-  const glm::dvec4 world = world_from_index * glm::dvec4(first.x(), first.y(), first.z(), 1.0);
-  throw Error(fmt::format(
-      "{}: {} {} NaN, infinite or too large for float; the first is voxel ({}, {}, {}), at "
-      "({:g}, {:g}, {:g})",
-      label, count, count == 1 ? "voxel is" : "voxels are", first.x(), first.y(), first.z(),
-      world.x, world.y, world.z));
+  if (count > 0)
+    fail_as_non_finite(count, {first.x(), first.y(), first.z()}, world_from_index, label);
 }
 
 template <class Tree>
@@ -122,12 +127,22 @@ void clean(Tree& tree, const std::string& label, Notices& notices) {
                                   negative == 1 ? "voxel was" : "voxels were"));
 }
 
+template <class Tree>
+bool is_zero(const Tree& tree) {
+  const auto zero = openvdb::zeroVal<typename Tree::ValueType>();
+  for (auto value = tree.cbeginValueOn(); value; ++value)
+    if (value.getValue() != zero) return false;
+  return true;
+}
+
 template void require_sound_tree(const openvdb::FloatTree&, const std::string&);
 template void require_sound_tree(const openvdb::DoubleTree&, const std::string&);
 template void require_sound_tree(const openvdb::Vec3STree&, const std::string&);
 template void require_sound_tree(const openvdb::Vec3DTree&, const std::string&);
 template void require_finite(const openvdb::FloatTree&, const glm::dmat4&, const std::string&);
 template void require_finite(const openvdb::Vec3STree&, const glm::dmat4&, const std::string&);
+template bool is_zero(const openvdb::FloatTree&);
+template bool is_zero(const openvdb::Vec3STree&);
 template void clean(openvdb::FloatTree&, const std::string&, Notices&);
 template void clean(openvdb::Vec3STree&, const std::string&, Notices&);
 

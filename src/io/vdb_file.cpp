@@ -53,8 +53,8 @@ class VdbStream {
   void skip_metadata() {
     const auto count = read<std::uint32_t>();
     for (std::uint32_t i = 0; i < count; ++i) {
-      read_string();  // name
-      read_string();  // type
+      read_string();                                                       // name
+      read_string();                                                       // type
       const std::uint32_t length = checked_length(read<std::uint32_t>());  // of the value
       seek(position() + length);
     }
@@ -194,10 +194,10 @@ class VdbFile final : public GridFile {
       entry.type.resize(entry.type.size() - kHalfSuffix.size());
     }
     entry.tree_of = file_.read_string();
+    entry.grid_position = file_.read<std::int64_t>();
+    file_.read<std::int64_t>();  // of the voxel values, which follow the topology anyway
+    const auto end = file_.read<std::int64_t>();
     if (has_offsets_) {
-      entry.grid_position = file_.read<std::int64_t>();
-      file_.read<std::int64_t>();  // of the voxel values, which follow the topology anyway
-      const auto end = file_.read<std::int64_t>();
       if (end > file_.size())
         throw Error(fmt::format("{}: truncated: grid \"{}\" ends at byte {}, the file at byte {}",
                                 path_, entry.name, end, file_.size()));
@@ -205,7 +205,7 @@ class VdbFile final : public GridFile {
         throw std::runtime_error("grids overlap");
       file_.seek(end);
     } else {
-      // Without positions the only way to the next grid is through this one.
+      // Written to a pipe: the only way to the next grid is through this one.
       if (!openvdb::GridBase::isRegistered(entry.type))
         throw std::runtime_error(fmt::format("grid type \"{}\" is unknown", entry.type));
       streamed_.push_back(read_here(entry));
