@@ -7,10 +7,10 @@ cd "$(dirname "$0")/.."
 preset=${1:-release}
 
 packages=(
-  cmake ninja-build ccache g++ pkg-config
+  git cmake ninja-build ccache g++
   libglm-dev libpcg-cpp-dev
-  libopenvdb-dev libnanovdb-dev libblosc-dev zlib1g-dev
-  libembree-dev libopenimageio-dev openimageio-tools
+  libopenvdb-dev libnanovdb-dev libboost-iostreams-dev libblosc-dev zlib1g-dev
+  libembree-dev libopenimageio-dev openimageio-tools libopenexr-dev libimath-dev
   libpugixml-dev libtbb-dev libcli11-dev libfmt-dev nlohmann-json3-dev
   libgtest-dev libgmock-dev clang-format
 )
