@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Makes the volumes of this folder: make_media FOLDER. See README.md.
+// Makes the volumes of this folder: make_media FOLDER [NAME]... See README.md.
 
 #include <openvdb/io/File.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Prune.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <iterator>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "media.h"
 
@@ -60,52 +64,73 @@ openvdb::Vec3SGrid::Ptr to_colors(const std::string& name, const DenseGrid<glm::
   return grid;
 }
 
-void write(const std::string& path, const openvdb::GridPtrVec& grids) {
-  openvdb::io::File file(path);
-  file.setCompression(openvdb::io::COMPRESS_ZIP | openvdb::io::COMPRESS_ACTIVE_MASK);
-  file.write(grids);
-  std::printf("%s\n", path.c_str());
+// World units are metres; the ground is y = 0 and the middle x = z = 0.
+openvdb::math::Transform::Ptr centered(const glm::ivec3& n, double voxel_size, double bottom) {
+  return placement(voxel_size, {-0.5 * voxel_size * (n.x - 1), bottom + 0.5 * voxel_size,
+                                -0.5 * voxel_size * (n.z - 1)});
 }
 
-/// World units are metres; the ground is y = 0 and the middle x = z = 0.
-void make_all(const std::string& folder) {
-  openvdb::initialize();
-  constexpr float kThreshold = 1.0f / 256.0f;
-  const auto centered = [](const glm::ivec3& n, double voxel_size, double bottom) {
-    return placement(voxel_size, {-0.5 * voxel_size * (n.x - 1), bottom + 0.5 * voxel_size,
-                                  -0.5 * voxel_size * (n.z - 1)});
-  };
+constexpr float kThreshold = 1.0f / 256.0f;  // less density is left out
 
+openvdb::GridPtrVec cloud_grids() {
   const DenseGrid<float> cloud = make_cloud();
-  write(folder + "/cloud.vdb",
-        {to_fog("density", cloud, kThreshold, centered(cloud.size(), 4.0, 600.0))});
+  return {to_fog("density", cloud, kThreshold, centered(cloud.size(), 4.0, 600.0))};
+}
 
+openvdb::GridPtrVec fog_bank_grids() {
   const DenseGrid<float> fog = make_fog_bank();
-  write(folder + "/fog_bank.vdb",
-        {to_fog("density", fog, kThreshold, centered(fog.size(), 1.0, 0.0))});
+  return {to_fog("density", fog, kThreshold, centered(fog.size(), 1.0, 0.0))};
+}
 
+openvdb::GridPtrVec constant_grids() {
   const DenseGrid<float> constant(glm::ivec3(16), 1.0f);
-  write(folder + "/constant.vdb",
-        {to_fog("density", constant, kThreshold, centered(constant.size(), 1.0 / 16.0, 0.0))});
+  return {to_fog("density", constant, kThreshold, centered(constant.size(), 1.0 / 16.0, 0.0))};
+}
 
+openvdb::GridPtrVec smoke_grids() {
   const Smoke smoke = make_smoke();
   const auto transform = centered(smoke.density.size(), 0.025, 0.0);
   const auto density = to_fog("density", smoke.density, kThreshold, transform);
-  write(folder + "/smoke.vdb",
-        {density, to_colors("albedo", smoke.albedo, *density),
-         to_fog("temperature", smoke.temperature, kThreshold, transform->copy())});
+  return {density, to_colors("albedo", smoke.albedo, *density),
+          to_fog("temperature", smoke.temperature, kThreshold, transform->copy())};
+}
+
+struct Maker {
+  const char* name;
+  openvdb::GridPtrVec (*make)();
+};
+constexpr Maker kMakers[] = {{"cloud", cloud_grids},
+                             {"fog_bank", fog_bank_grids},
+                             {"constant", constant_grids},
+                             {"smoke", smoke_grids}};
+
+void write(const std::string& folder, const Maker& maker) {
+  const std::string path = folder + "/" + maker.name + ".vdb";
+  openvdb::io::File file(path);
+  file.setCompression(openvdb::io::COMPRESS_ZIP | openvdb::io::COMPRESS_ACTIVE_MASK);
+  file.write(maker.make());
+  std::printf("%s\n", path.c_str());
 }
 
 }  // namespace
 }  // namespace brume::media
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::fputs("usage: make_media FOLDER\n", stderr);
+  using brume::media::kMakers;
+  const std::vector<std::string_view> names(argv + std::min(argc, 2), argv + argc);
+  const bool known = std::all_of(names.begin(), names.end(), [](std::string_view name) {
+    return std::any_of(std::begin(kMakers), std::end(kMakers),
+                       [&](const auto& maker) { return maker.name == name; });
+  });
+  if (argc < 2 || !known) {
+    std::fputs("usage: make_media FOLDER [cloud | fog_bank | constant | smoke]...\n", stderr);
     return 2;
   }
   try {
-    brume::media::make_all(argv[1]);
+    openvdb::initialize();
+    for (const auto& maker : kMakers)
+      if (names.empty() || std::find(names.begin(), names.end(), maker.name) != names.end())
+        brume::media::write(argv[1], maker);
   } catch (const std::exception& e) {
     std::fprintf(stderr, "%s\n", e.what());
     return 1;
