@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "render/constant_vdb.h"
+#include "support/constant_vdb.h"
 #include "support/render_scene.h"
 #include "support/scene_files.h"
 

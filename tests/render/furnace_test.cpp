@@ -127,18 +127,18 @@ double mean_opacity(const TestScene& scene, const std::function<double(const Ray
 /// The same as an average of the scene's own transmittance at independent points.
 RunningMean sampled_opacity(const TestScene& scene) {
   const Camera& camera = *scene.loaded().camera;
-  const CameraMedium camera_medium(*scene.loaded().scene, camera);
+  const Medium* medium =
+      scene.loaded().scene->medium_at(camera.ray(Vec2(0.5f), Vec2(0.5f)).ray.o).medium;
   RunningMean mean_of;
   Rng rng(99);
   for (int i = 0; i < 60000; ++i) {
     const CameraRay ray = camera.ray(rng.next_vec2(), Vec2(0.5f));
-    mean_of.add(1.0 - mean(scene.loaded().scene->transmittance(ray.ray, ray.t_max,
-                                                               camera_medium.at(ray.ray.o), rng)));
+    mean_of.add(1.0 - mean(scene.loaded().scene->transmittance(ray.ray, ray.t_max, medium, rng)));
   }
   return mean_of;
 }
 
-TEST_P(Furnace, EveryPixelIsOneAndAlphaIsOneMinusTransmittance) {
+TEST_P(Furnace, IsOneEverywhere) {
   const TestScene test(scene(GetParam().body), write_files);
   const Rendered picture = render_path(test, kReplications);
   constexpr double kRounding = 5e-6;  // of products of a thousand weights that are nearly 1
@@ -300,6 +300,46 @@ INSTANTIATE_TEST_SUITE_P(Media, Furnace, ::testing::ValuesIn(with_environment(me
 INSTANTIATE_TEST_SUITE_P(Materials, Furnace, ::testing::ValuesIn(with_environment(materials())),
                          name_of);
 INSTANTIATE_TEST_SUITE_P(Lights, Furnace, ::testing::ValuesIn(lights()), name_of);
+
+/// Where the sky is hidden, what is seen of it is what scattered: added to a sky of radiance 1 that
+/// shines through what the opacity leaves, it is 1 again.
+class HiddenSky : public ::testing::TestWithParam<FurnaceCase> {};
+
+TEST_P(HiddenSky, RadianceIsOpacity) {
+  const TestScene test(
+      scene(GetParam().body + "<integrator type=\"volpath\"><boolean name=\"hide_emitters\" "
+                              "value=\"true\"/></integrator>"),
+      write_files);
+  const Rendered picture = render_path(test, kReplications);
+  for (int y = 0; y < kSize; ++y)
+    for (int x = 0; x < kSize; ++x)
+      EXPECT_TRUE(agree(picture.pixel(kGreen, x, y), picture.pixel(kOpacity, x, y), 5e-6))
+          << "pixel (" << x << ", " << y << ")";
+  EXPECT_TRUE(agree(picture.whole(kGreen), picture.whole(kOpacity), 5e-6));
+  EXPECT_GT(picture.whole(kOpacity).mean(), 0.05);
+  EXPECT_LT(picture.whole(kOpacity).mean(), 0.95);
+}
+
+std::vector<FurnaceCase> grey_bodies() {
+  const std::string ball = "<shape type=\"sphere\"><float name=\"radius\" value=\"0.5\"/>";
+  const std::string sheet =
+      "<shape type=\"rectangle\"><transform name=\"to_world\"><scale value=\"0.7\"/><rotate "
+      "x=\"1\" angle=\"40\"/></transform>";
+  return {
+      {"Fog", homogeneous("1.5", 0.5) + kSphere + kFar},
+      {"Grid", heterogeneous("grey.vol", 2, 0.0) + kNoHull + kFar},
+      {"GlassBallInFog", homogeneous("0.7", 0.0) + kSkewedCube + ball +
+                             "<bsdf type=\"dielectric\"/><ref name=\"interior\" id=\"m\"/>"
+                             "</shape>" +
+                             kFar},
+      {"ThinGlassInGrid", heterogeneous("grey.vol", 1, 0.6) + sheet +
+                              "<bsdf type=\"thindielectric\"/></shape>" + kFar},
+      {"CameraInsideFog", homogeneous("0.8", 0.8) + kSphere + kWithin},
+  };
+}
+
+INSTANTIATE_TEST_SUITE_P(, HiddenSky, ::testing::ValuesIn(with_environment(grey_bodies())),
+                         name_of);
 
 double chord_of_unit_sphere(const Ray& ray) {
   const glm::dvec3 o(ray.o), d(ray.d);

@@ -5,7 +5,7 @@
 #include <ostream>
 
 #include "film/write_image.h"
-#include "render/constant_vdb.h"
+#include "support/constant_vdb.h"
 #include "support/scene_files.h"
 
 namespace brume::test {
@@ -332,6 +332,40 @@ const char* const kAllLights = R"(
     <vector name="direction" value="0.5, -1, 0.1"/><rgb name="irradiance" value="0.5, 0.6, 0.8"/>
   </emitter>)";
 
+const char* const kLampsInFog = R"(
+  <integrator type="volpath"/>
+  <medium type="homogeneous">
+    <rgb name="sigma_t" value="0.5, 0.4, 0.2"/>
+    <rgb name="albedo" value="0.8, 0.9, 0.95"/>
+    <phase type="hg"><float name="g" value="0.6"/></phase>
+  </medium>
+  <shape type="cube">
+    <boolean name="flip_normals" value="true"/>
+    <transform name="to_world"><scale value="2"/></transform>
+    <bsdf type="diffuse"><rgb name="reflectance" value="0.5, 0.4, 0.3"/></bsdf>
+  </shape>
+  <shape type="sphere">
+    <point name="center" value="-0.6, 0.5, -0.5"/><float name="radius" value="0.25"/>
+    <bsdf type="null"/>
+  </shape>
+  <emitter type="point">
+    <point name="position" value="-0.6, 0.5, -0.5"/><rgb name="intensity" value="1.5, 2, 1"/>
+  </emitter>
+  <shape type="sphere">
+    <point name="center" value="0.8, 1.2, -0.3"/><float name="radius" value="0.3"/>
+    <bsdf type="null"/>
+  </shape>
+  <emitter type="spot">
+    <transform name="to_world">
+      <lookat origin="0.8, 1.2, -0.3" target="0.3, -1, -0.6" up="0, 0, 1"/>
+    </transform>
+    <rgb name="intensity" value="6, 4, 3"/><float name="cutoff_angle" value="30"/>
+  </emitter>
+  <shape type="sphere">
+    <point name="center" value="0.5, -0.6, -0.4"/><float name="radius" value="0.4"/>
+    <emitter type="area"><rgb name="radiance" value="0.6, 0.9, 1.5"/></emitter>
+  </shape>)";
+
 std::string film(const std::string& filter) {
   const std::string n = std::to_string(kSize);
   return "<film type=\"hdrfilm\"><integer name=\"width\" value=\"" + n +
@@ -373,6 +407,7 @@ const std::vector<ReferenceScene>& reference_scenes() {
       {"StraightOrBack", scene(kStraightOrBack, perspective("0, 0.5, 4", "0, 0, 0", 38, kSize)),
        500},
       {"ShortPaths", scene(kShortPaths, perspective("0.3, 0.2, 4.5", "0, 0, 0", 38, kSize)), 500},
+      {"LampsInFog", scene(kLampsInFog, perspective("0.1, 0.2, 1.9", "0, 0, -1", 70, kSize)), 500},
       {"AllLights", scene(kAllLights, perspective("0.3, 0.6, 4", "0, 0, 0", 38, kSize)), 500},
   };
   return scenes;

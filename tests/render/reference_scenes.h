@@ -9,7 +9,8 @@
 namespace brume::test {
 
 /// A small scene that both integrators render, with lights large enough to run into. Lights that
-/// cannot be run into stand outside media: nearby scatterings would see them arbitrarily bright.
+/// cannot be run into stand outside media: scatterings beside them would see them arbitrarily
+/// bright, and the means of the reference would not settle.
 ///
 ///   name            media                      materials                    lights
 ///   FoggyRoom       fills the world, hg        diffuse, plastic,            area (rectangle)
@@ -24,6 +25,8 @@ namespace brume::test {
 ///                   backward, constvolume
 ///   StraightOrBack  g = 1 and g = -1           null, dielectric             constant, area (disk)
 ///   ShortPaths      homogeneous, max_depth 3   diffuse, roughconductor      area (tube), constant
+///   LampsInFog      fills the world, coloured  null, diffuse                point, spot, each in a
+///                                                                           bubble; area (sphere)
 ///   AllLights       homogeneous, coloured      diffuse, plastic             all at once
 struct ReferenceScene {
   std::string name, xml;

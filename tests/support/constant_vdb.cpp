@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/constant_vdb.h"
+#include "support/constant_vdb.h"
 
 #include <openvdb/io/File.h>
 #include <openvdb/openvdb.h>
