@@ -32,6 +32,9 @@ class Bsdf {
 
   /// Whether `eval` is nonzero anywhere, that is whether next-event estimation can help.
   virtual bool has_smooth_lobe() const { return true; }
+  /// Whether `straight_transmittance` is nonzero anywhere: such a surface must be looked at, where
+  /// any other may be taken for opaque to shadow rays.
+  virtual bool passes_straight() const { return false; }
   /// Fraction of the light along -wo that passes straight through: 1 for an index-matched
   /// boundary, 0 for most surfaces. `sample` returns that light with `straight` set.
   virtual Rgb straight_transmittance(const Vec3& /*wo*/, const Vec2& /*uv*/) const {

@@ -19,6 +19,7 @@ class NullBsdf final : public Bsdf {
     return BsdfSample{.wi = -wo, .weight = Rgb{1.0f}, .pdf = kInfinity, .straight = true};
   }
   bool has_smooth_lobe() const override { return false; }
+  bool passes_straight() const override { return true; }
   Rgb straight_transmittance(const Vec3& /*wo*/, const Vec2& /*uv*/) const override {
     return Rgb{1.0f};
   }

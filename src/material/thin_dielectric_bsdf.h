@@ -26,6 +26,7 @@ class ThinDielectricBsdf final : public Bsdf {
   std::optional<BsdfSample> sample(const Vec3& wo, const Vec2& uv, float u_lobe,
                                    const Vec2& u) const override;
   bool has_smooth_lobe() const override { return false; }
+  bool passes_straight() const override { return true; }
   Rgb straight_transmittance(const Vec3& wo, const Vec2& uv) const override;
   /// At normal incidence.
   Rgb albedo(const Vec2& uv) const override;

@@ -10,6 +10,7 @@
 #include <atomic>
 #include <cassert>
 #include <chrono>
+#include <cstdio>
 
 #include "core/sampler.h"
 #include "film/film.h"
@@ -101,7 +102,7 @@ RenderResult render(const SampleFunction& sample, const RenderSettings& settings
                      .target_spp = unlimited ? double(kInfinity) : double(settings.spp),
                      .seconds = 0.0,
                      .seconds_limit = settings.seconds},
-                    settings.progress_stream);
+                    stderr);
 
   const std::uint32_t tiles =
       ((film.width() + kTileSize - 1) / kTileSize) * ((film.height() + kTileSize - 1) / kTileSize);

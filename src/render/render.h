@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdio>
 #include <functional>
 #include <limits>
 
@@ -26,7 +25,6 @@ struct RenderSettings {
   double seconds = std::numeric_limits<double>::infinity();  // of rendering
   int threads = 0;                                           // 0 for all that the machine has
   ProgressStyle progress = ProgressStyle::kQuiet;
-  std::FILE* progress_stream = stderr;
 };
 
 enum class StopReason { kSampleCount, kTimeLimit, kInterrupted };
