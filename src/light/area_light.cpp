@@ -40,8 +40,9 @@ std::optional<LightSample> AreaLight::sample(const Vec3& p, const Vec2& u) const
 float AreaLight::importance(const Vec3& p) const {
   // The solid angle of a disk of the light's size, seen from straight ahead.
   const float d2 = length_squared(center_ - p);
-  const float cos_angle = std::sqrt(d2 / (d2 + radius_ * radius_));
-  return finite(luminance(radiance_) * 2.0f * kPi * (1.0f - (d2 > 0.0f ? cos_angle : 0.0f)));
+  const float sin2 = d2 > 0.0f ? radius_ * radius_ / (d2 + radius_ * radius_) : 1.0f;
+  const float one_minus_cos = sin2 / (1.0f + std::sqrt(1.0f - sin2));
+  return finite(luminance(radiance_) * 2.0f * kPi * one_minus_cos);
 }
 
 std::optional<Light::Pivot> AreaLight::pivot() const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/scene.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace brume {
@@ -49,6 +50,8 @@ Scene::Scene(SceneParts parts)
       area_lights_(area_lights_of(surfaces_)),
       lights_(joined(area_lights_, parts.lights), std::move(parts.environments)) {
   for (Surface& surface : surfaces_) place_in_world(surface, world_medium_);
+  passes_straight_ = std::any_of(surfaces_.begin(), surfaces_.end(),
+                                 [](const Surface& s) { return s.bsdf->passes_straight(); });
   if (!surfaces_.empty()) queries_.emplace(shapes_of(surfaces_));
 
   std::size_t index = 0;
@@ -115,6 +118,11 @@ const Medium* Scene::medium_beside(const Vec3& from, const Medium* medium, const
 }
 
 Rgb Scene::transmittance(const Ray& ray, float distance, const Medium* medium, Rng& rng) const {
+  if (!passes_straight_) {
+    if (queries_ && queries_->is_occluded(ray, distance)) return Rgb{0.0f};
+    return medium == nullptr ? Rgb{1.0f} : medium->transmittance(ray, distance, rng);
+  }
+
   Rgb T{1.0f};
   Ray segment = ray;
   while (true) {

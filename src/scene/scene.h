@@ -74,6 +74,7 @@ class Scene {
   std::vector<Requirement> requirements_;
   std::vector<Surface> surfaces_;
   std::shared_ptr<const Medium> world_medium_;
+  bool passes_straight_;  // whether light passes straight through any surface
   std::optional<RayQueries> queries_;
   std::vector<std::shared_ptr<const AreaLight>> area_lights_;  // [surface], null: emits nothing
   std::vector<std::size_t> light_index_;                       // [surface], in lights_
