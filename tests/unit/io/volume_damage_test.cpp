@@ -75,13 +75,11 @@ TEST_F(DamagedFileLaw, VdbEndsInAnError) {
   }
 }
 
-TEST_F(DamagedFileLaw, NvdbEndsInAnError) {
+TEST_F(DamagedFileLaw, TruncatedNvdbEndsInAnError) {
   for (const auto codec :
        {nanovdb::io::Codec::NONE, nanovdb::io::Codec::ZIP, nanovdb::io::Codec::BLOSC}) {
     nanovdb::io::writeGrid(path("test.nvdb"), nanovdb::openToNanoVDB(*ball()), codec);
-    const std::string bytes = read_bytes(path("test.nvdb"));
-    truncate(bytes);
-    scramble(bytes, 60);
+    truncate(read_bytes(path("test.nvdb")));
   }
 }
 
