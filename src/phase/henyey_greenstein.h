@@ -45,10 +45,9 @@ struct HenyeyGreenstein {
     const float one_plus = 2.0f * backward * backward * u.x * (1.0f - a + a * u.x);
     const float cos_theta = one_minus < 1.0f ? 1.0f - one_minus : one_plus - 1.0f;
     const float sin_theta = std::sqrt(one_minus * one_plus);
-    const Vec3 local = spherical_direction(sin_theta, std::copysign(1.0f, g) * cos_theta,
-                                           2.0f * kPi * u.y);
-    const float pdf =
-        D * D * D / (4.0f * kPi * (1.0f - a) * (1.0f - a) * (1.0f + a) * (1.0f + a));
+    const Vec3 local =
+        spherical_direction(sin_theta, std::copysign(1.0f, g) * cos_theta, 2.0f * kPi * u.y);
+    const float pdf = D * D * D / (4.0f * kPi * (1.0f - a) * (1.0f - a) * (1.0f + a) * (1.0f + a));
     return {.d = glm::normalize(Frame(d).to_world(local)), .pdf = pdf};
   }
 };

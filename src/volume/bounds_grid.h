@@ -19,8 +19,8 @@ struct ValueRange {
 };
 
 /// Bounds of a grid: a coarse lattice of cubic cells over the grid's box. The range of a cell
-/// covers every voxel that interpolation inside the cell, faces included, can touch; it is exact, so
-/// that the cells of a constant grid have equal ends.
+/// covers every voxel that interpolation inside the cell, faces included, can touch; it is exact,
+/// so that the cells of a constant grid have equal ends.
 class BoundsGrid {
  public:
   /// Cells are `cell_size` voxels wide; it is doubled until there are at most `kMaxCells`.

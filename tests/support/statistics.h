@@ -39,8 +39,7 @@ inline ::testing::AssertionResult agrees(const RunningMean& got, double want,
   if (std::abs(got.mean() - want) <= tolerance) return ::testing::AssertionSuccess();
   return ::testing::AssertionFailure()
          << "mean " << got.mean() << " +- " << got.standard_error() << " (n " << got.count()
-         << ") differs from " << want << " by z = "
-         << (got.mean() - want) / got.standard_error();
+         << ") differs from " << want << " by z = " << (got.mean() - want) / got.standard_error();
 }
 
 /// Two independent means agree.

@@ -62,8 +62,8 @@ TEST_F(VdbFileLaw, ActiveTilesAreRead) {
 TEST_F(VdbFileLaw, AnyAffineMapIsKept) {
   const auto grid = one_voxel();
   // OpenVDB's matrices act on row vectors: rotated, mirrored, non-cubic, translated.
-  const openvdb::Mat4d map(0.0, 0.5, 0.0, 0.0, -0.25, 0.0, 0.0, 0.0, 0.0, 0.0, -2.0, 0.0, 10.0, 20.0, 30.0,
-                          1.0);
+  const openvdb::Mat4d map(0.0, 0.5, 0.0, 0.0, -0.25, 0.0, 0.0, 0.0, 0.0, 0.0, -2.0, 0.0, 10.0,
+                           20.0, 30.0, 1.0);
   grid->setTransform(openvdb::math::Transform::createLinearTransform(map));
   const std::string file = write_vdb({grid});
   const glm::dmat4 to_world = glm::scale(glm::dmat4(1), glm::dvec3(3.0));
