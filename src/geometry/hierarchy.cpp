@@ -45,10 +45,12 @@ struct Query {
   RTCIntersectContext context;  // first, so that its address is that of the query
   PreciseRay ray;               // near the items
   double t_max;                 // crossings count in (0, t_max] along `ray` [unit]
-  std::optional<Crossing> nearest{};
-  std::uint32_t item = 0;  // of `nearest`
+  Hierarchy::Cluster found;
 
-  Query(const PreciseRay& r, double t) : ray(r), t_max(t) { rtcInitIntersectContext(&context); }
+  Query(const PreciseRay& r, double t, const TraversalSpace& space)
+      : ray(r), t_max(t), found(space.coordinate_rounding()) {
+    rtcInitIntersectContext(&context);
+  }
 };
 
 const Geometry& geometry_of(void* pointer) {
@@ -79,12 +81,9 @@ void intersect_item(const RTCIntersectFunctionNArguments* args) {
   const std::optional<Crossing> found =
       geometry.items.intersect(args->primID, query.ray, query.t_max);
   if (!found) return;
-  if (query.nearest && std::tie(query.nearest->t, query.item) < std::tie(found->t, args->primID))
-    return;
-  query.nearest = found;
-  query.item = args->primID;
-  query.t_max = found->t;
-  reinterpret_cast<RTCRayHit*>(args->rayhit)->ray.tfar = geometry.space.distance(found->t);
+  query.found.add({args->primID, *found});
+  query.t_max = std::min(query.t_max, query.found.reach());
+  reinterpret_cast<RTCRayHit*>(args->rayhit)->ray.tfar = geometry.space.distance(query.t_max);
 }
 
 void occlude_item(const RTCOccludedFunctionNArguments* args) {
@@ -140,6 +139,19 @@ struct Hierarchy::Impl {
   }
 };
 
+void Hierarchy::Cluster::add(const ItemCrossing& added) {
+  const auto comes_before = [](const ItemCrossing& a, const ItemCrossing& b) {
+    return std::tie(a.crossing.t, a.item) < std::tie(b.crossing.t, b.item);
+  };
+  std::size_t at = size_;
+  while (at > 0 && comes_before(added, crossings_[at - 1])) --at;
+  if (at == crossings_.size()) return;
+  if (size_ < crossings_.size()) ++size_;
+  for (std::size_t i = size_ - 1; i > at; --i) crossings_[i] = crossings_[i - 1];
+  crossings_[at] = added;
+  while (crossings_[size_ - 1].crossing.t > reach()) --size_;
+}
+
 Hierarchy::Hierarchy(const Items& items) : impl_(std::make_unique<const Impl>(items)) {}
 Hierarchy::~Hierarchy() = default;
 
@@ -147,21 +159,20 @@ std::optional<Hierarchy::Found> Hierarchy::nearest(const PreciseRay& ray, double
   const TraversalSpace& space = impl_->geometry.space;
   const auto local = space.ray(ray);
   if (!local || !(local->start < t_max)) return std::nullopt;
-  Query query({.o = ray.at(local->start), .d = ray.d}, t_max - local->start);
+  Query query({.o = ray.at(local->start), .d = ray.d}, t_max - local->start, space);
   RTCRayHit embree{};
   embree.ray = embree_ray(local->o, ray.d, space.distance(query.t_max));
   embree.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(impl_->scene.get(), &query.context, &embree);
-  if (!query.nearest) return std::nullopt;
-  return Found{
-      .item = query.item, .ray = query.ray, .start = local->start, .crossing = *query.nearest};
+  if (query.found.empty()) return std::nullopt;
+  return Found{.ray = query.ray, .start = local->start, .crossings = query.found};
 }
 
 bool Hierarchy::is_occluded(const PreciseRay& ray, double t_max) const {
   const TraversalSpace& space = impl_->geometry.space;
   const auto local = space.ray(ray);
   if (!local || !(local->start < t_max)) return false;
-  Query query({.o = ray.at(local->start), .d = ray.d}, t_max - local->start);
+  Query query({.o = ray.at(local->start), .d = ray.d}, t_max - local->start, space);
   RTCRay embree = embree_ray(local->o, ray.d, space.distance(query.t_max));
   rtcOccluded1(impl_->scene.get(), &query.context, &embree);
   return embree.tfar < 0.0f;

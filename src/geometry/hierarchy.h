@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -43,14 +44,38 @@ class Hierarchy {
   explicit Hierarchy(const Items& items);
   ~Hierarchy();
 
-  struct Found {
+  struct ItemCrossing {
     std::uint32_t item;
+    Crossing crossing;
+  };
+  /// Crossings closer together than rounding of float coordinates can keep them, in the order of
+  /// distances.
+  class Cluster {
+   public:
+    explicit Cluster(double width) : width_(width) {}
+
+    bool empty() const { return size_ == 0; }
+    const ItemCrossing* begin() const { return crossings_.data(); }
+    const ItemCrossing* end() const { return crossings_.data() + size_; }
+    const ItemCrossing& nearest() const { return crossings_[0]; }
+    /// No crossing beyond this distance belongs to the cluster [unit].
+    double reach() const { return nearest().crossing.t + width_; }
+    /// Takes a crossing up, or leaves it out as too far away. Of equally distant ones the first
+    /// item comes first, so that it does not matter how the hierarchy was built.
+    void add(const ItemCrossing& crossing);
+
+   private:
+    std::array<ItemCrossing, 4> crossings_;
+    std::size_t size_ = 0;
+    double width_;  // [unit]
+  };
+
+  struct Found {
     PreciseRay ray;     // from where the given one comes near: there, differences have more digits
     double start;       // distance of its origin from the given one [unit]
-    Crossing crossing;  // along `ray`
+    Cluster crossings;  // along `ray`, of at least one item
   };
-  /// First crossing for t in (0, t_max]; of several at the same distance, that of the first item,
-  /// so that it does not matter how the hierarchy was built.
+  /// First crossing for t in (0, t_max], with those that are all but at the same place.
   std::optional<Found> nearest(const PreciseRay& ray, double t_max) const;
   bool is_occluded(const PreciseRay& ray, double t_max) const;
 

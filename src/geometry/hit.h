@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -8,6 +9,14 @@
 #include "core/vec.h"
 
 namespace brume {
+
+/// The part of the `error` of a point `p` with unit normal `n`, see surface_error(), that is the
+/// rounding of `p` and of a step from it. The rest is for directions within rounding of the
+/// surface, which sink by a share of its extent; a small part of it stands for surfaces through the
+/// origin, which are intersected in double.
+inline float rounding_error(const Vec3& p, const Vec3& n, float error) {
+  return std::min(0x1p-24f * 3.0f * glm::dot(glm::abs(n), glm::abs(p)) + 0x1p-20f * error, error);
+}
 
 /// A point on a surface, as a ray found it.
 struct Hit {
@@ -20,6 +29,15 @@ struct Hit {
   Vec2 uv;              // surface parameters
   std::uint32_t shape;  // index in the order given to `RayQueries`
 
+  /// Other shapes whose surfaces lie at the same place to within rounding, so that a ray that
+  /// leaves this one leaves them as well.
+  struct Coincident {
+    std::uint32_t shape;
+    bool faces_alike;  // whether its outside is on the side of `n`
+  };
+  std::array<Coincident, 3> coincident{};
+  std::uint32_t coincident_count = 0;
+
   /// Ray that leaves the point in direction `d`, moved off the surface by the error bound and no
   /// more, so that it neither finds the surface again nor loses optical depth.
   Ray leave(const Vec3& d) const {
@@ -27,7 +45,7 @@ struct Hit {
     // which may be thousands of times the thickness of what lies behind.
     constexpr float kGrazing = 0x1p-20f;
     const float cosine = glm::dot(d, n);
-    const float step = std::abs(cosine) < kGrazing ? error : rounding_error();
+    const float step = std::abs(cosine) < kGrazing ? error : rounding_error(p, n, error);
     return {.o = cosine >= 0.0f ? p + step * n : p - step * n, .d = d};
   }
 
@@ -41,13 +59,6 @@ struct Hit {
     const double length = glm::length(to_target);
     distance = float(length);
     return length > 0.0 ? Ray{.o = ray.o, .d = Vec3(to_target / length)} : ray;
-  }
-
- private:
-  /// The part of `error` that is the rounding of `p` and of a step from it; the share of `error`
-  /// itself stands for surfaces through the origin, which are intersected in double.
-  float rounding_error() const {
-    return std::min(0x1p-24f * 3.0f * glm::dot(glm::abs(n), glm::abs(p)) + 0x1p-20f * error, error);
   }
 };
 

@@ -33,7 +33,37 @@ class RayQueries::Impl final : public Hierarchy::Items {
     return shapes_[item]->occludes(ray, t_max);
   }
 
-  const Shape& shape(std::uint32_t item) const { return *shapes_[item]; }
+  Hit hit(const Hierarchy::Found& found, const Hierarchy::ItemCrossing& at) const {
+    Hit hit = shapes_[at.item]->hit(found.ray, at.crossing);
+    // The distance to the surface itself, with a relative error of 2^-24: media integrate over it,
+    // and the distance to the rounded point would be wrong by all of `hit.error`.
+    hit.t = std::max(static_cast<float>(found.start + at.crossing.t),
+                     std::numeric_limits<float>::min());
+    hit.shape = at.item;
+    return hit;
+  }
+
+  /// Of the crossings that a ray leaving `nearest` leaves behind, that of the first shape.
+  Hit first_of_coincident(const Hierarchy::Found& found, const Hit& nearest) const {
+    const double cosine = std::abs(glm::dot(found.ray.d, Vec3d(nearest.n)));
+    const double step = 2.0 * rounding_error(nearest.p, nearest.n, nearest.error);
+    const auto is_left_behind = [&](const Hierarchy::ItemCrossing& at) {
+      return (at.crossing.t - found.crossings.nearest().crossing.t) * cosine <= step;
+    };
+    const Hierarchy::ItemCrossing* first = found.crossings.begin();
+    for (const Hierarchy::ItemCrossing& at : found.crossings)
+      if (is_left_behind(at) && at.item < first->item) first = &at;
+
+    Hit result = hit(found, *first);
+    for (const Hierarchy::ItemCrossing& at : found.crossings) {
+      if (&at == first || !is_left_behind(at)) continue;
+      const Vec3 n = shapes_[at.item]->hit(found.ray, at.crossing).n;
+      result.coincident[result.coincident_count++] = {.shape = at.item,
+                                                      .faces_alike = glm::dot(n, result.n) > 0.0f};
+    }
+    return result;
+  }
+
   const Hierarchy& hierarchy() const { return hierarchy_; }
 
  private:
@@ -52,13 +82,9 @@ RayQueries::~RayQueries() = default;
 std::optional<Hit> RayQueries::intersect(const Ray& ray, float t_max) const {
   const auto found = impl_->hierarchy().nearest(precise(ray), inclusive(t_max));
   if (!found) return std::nullopt;
-  Hit hit = impl_->shape(found->item).hit(found->ray, found->crossing);
-  // The distance to the surface itself, with a relative error of 2^-24: media integrate over it,
-  // and the distance to the rounded point would be wrong by all of `hit.error`.
-  hit.t = std::max(static_cast<float>(found->start + found->crossing.t),
-                   std::numeric_limits<float>::min());
-  hit.shape = found->item;
-  return hit;
+  const Hit nearest = impl_->hit(*found, found->crossings.nearest());
+  const bool is_alone = found->crossings.begin() + 1 == found->crossings.end();
+  return is_alone ? nearest : impl_->first_of_coincident(*found, nearest);
 }
 
 bool RayQueries::is_occluded(const Ray& ray, float t_max) const {

@@ -11,7 +11,8 @@
 namespace brume {
 
 /// Asks all shapes of a scene at once. Immutable; shared between threads. The answer depends on
-/// the shapes and the ray alone: of surfaces at the same distance the first shape answers.
+/// the shapes and the ray alone: of surfaces at the same place to within rounding the first shape
+/// answers, and names the others.
 class RayQueries {
  public:
   /// At least one shape. `Hit::shape` is the index in `shapes`.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "core/box.h"
@@ -30,6 +31,13 @@ class TraversalSpace {
   };
   /// The ray from where it comes near; nothing when it stays away.
   std::optional<LocalRay> ray(const PreciseRay& world) const;
+
+  /// Bound on how far rounding to float may move a point of the world's box along a ray that is not
+  /// grazing a surface there [unit].
+  double coordinate_rounding() const {
+    const Vec3d c = glm::abs(center_);
+    return 0x1p-20 * (std::max({c.x, c.y, c.z}) + 1.0 / scale_);
+  }
 
   /// Distance from a local origin, not less than the exact value.
   float distance(double world) const {

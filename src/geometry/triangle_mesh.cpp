@@ -122,7 +122,7 @@ std::optional<Crossing> TriangleMesh::Triangles::intersect(std::uint32_t triangl
 std::optional<Crossing> TriangleMesh::intersect(const PreciseRay& ray, double t_max) const {
   const auto found = hierarchy_->nearest(ray, t_max);
   if (!found) return std::nullopt;
-  Crossing crossing = found->crossing;
+  Crossing crossing = found->crossings.nearest().crossing;
   crossing.t += found->start;
   return crossing;
 }

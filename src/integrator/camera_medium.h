@@ -15,8 +15,11 @@ class CameraMedium {
         anchor_(camera.ray(Vec2(0.5f), Vec2(0.5f)).ray.o),
         medium_(scene.medium_at(anchor_).medium) {}
 
-  const Medium* at(const Vec3& origin) const {
-    return scene_.medium_beside(anchor_, medium_, origin);
+  /// At the origin of `ray`; a camera exactly on a boundary sees both sides.
+  const Medium* at(const Ray& ray) const {
+    const Medium* medium = scene_.medium_beside(anchor_, medium_, ray.o);
+    const Medium* beyond = scene_.medium_to_infinity(medium);
+    return medium == beyond || scene_.intersect(ray, kInfinity) ? medium : beyond;
   }
 
  private:

@@ -11,7 +11,7 @@ namespace brume {
 
 namespace {
 /// Flights after which roulette stops every path sooner or later.
-constexpr int kLongPath = 10000;
+constexpr int kLongPath = 3000;
 /// Scatterings up to which flights look for lights near to them; later ones matter too little.
 constexpr int kDepthThatSeeksLights = 2;
 }  // namespace
@@ -40,12 +40,13 @@ PathIntegrator::PathIntegrator(const Scene& scene, const Camera& camera,
 
 CameraSample PathIntegrator::sample(const Vec2& film, Sampler& sampler) const {
   const CameraRay camera_ray = camera_.ray(film, sampler.next_2d());
-  const Medium* medium = camera_medium_.at(camera_ray.ray.o);
+  const Medium* medium = camera_medium_.at(camera_ray.ray);
   Path path{.ray = camera_ray.ray, .t_max = camera_ray.t_max, .medium = medium};
 
   for (bool alive = true; alive; ++path.segments) {
     const auto hit = scene_.intersect(path.ray, path.t_max);
     if (hit) add_emission(path, *hit, sampler);
+    if (!hit && !(path.t_max < kInfinity)) path.medium = scene_.medium_to_infinity(path.medium);
     if (path.medium != nullptr) {
       const Segment segment{.ray = path.ray,
                             .t_end = hit ? hit->t : path.t_max,
@@ -233,8 +234,11 @@ float PathIntegrator::light_choice(const Path& path, std::size_t light, float p_
 bool PathIntegrator::survives_roulette(Path& path, Sampler& sampler) const {
   if (path.depth < settings_.rr_depth && path.segments < kLongPath) return true;
   float p_survive = std::min(max_component(path.beta) * path.eta_squared, 1.0f);
-  // A path that loses nothing would never end in a medium without a way out.
-  if (path.segments >= kLongPath) p_survive = std::min(p_survive, 0.999f);
+  // A path that loses nothing would never end in a medium without a way out. The share of paths
+  // that are n flights long falls as n^-1.5 in a thick body; survival falls with the same power, so
+  // that weights keep up with it, where a constant rate would leave the long ones out.
+  if (path.segments >= kLongPath)
+    p_survive = std::min(p_survive, 1.0f - 1.5f / float(path.segments));
   if (!(sampler.next_1d() < p_survive)) return false;
   path.beta /= p_survive;
   return true;

@@ -25,6 +25,7 @@ Rgb ReferenceIntegrator::analog_transmittance(Ray ray, float distance, const Med
   Rgb T{1.0f};
   while (true) {
     const auto hit = scene_.intersect(ray, distance);
+    if (!hit && !(distance < kInfinity)) medium = scene_.medium_to_infinity(medium);
     if (medium != nullptr) {
       const FreeFlight flight =
           medium->sample_free_flight(ray, hit ? hit->t : distance, T, sampler);
@@ -43,7 +44,7 @@ Rgb ReferenceIntegrator::analog_transmittance(Ray ray, float distance, const Med
 
 Rgb ReferenceIntegrator::sample(const Vec2& film, Sampler& sampler) const {
   Ray ray = camera_.ray(film, sampler.next_2d()).ray;
-  const Medium* medium = camera_medium_.at(ray.o);
+  const Medium* medium = camera_medium_.at(ray);
   Rgb beta{1.0f};
   Rgb L{0.0f};
   int depth = 0;
@@ -53,6 +54,7 @@ Rgb ReferenceIntegrator::sample(const Vec2& film, Sampler& sampler) const {
 
   while (!is_black(beta)) {
     const auto hit = scene_.intersect(ray, kInfinity);
+    if (!hit) medium = scene_.medium_to_infinity(medium);
     if (medium != nullptr) {
       const FreeFlight flight =
           medium->sample_free_flight(ray, hit ? hit->t : kInfinity, beta, sampler);

@@ -23,10 +23,11 @@ std::optional<LightSample> AreaLight::sample(const Vec3& p, const Vec2& u) const
 
   // The end of the shadow ray is o + distance d. Rounding both factors to float moves it across
   // the surface by up to (sqrt(3) + 1) 2^-24 distance, and as much again if the ray is aimed anew
-  // from beside `p`. That comes on top of the error of s.p.
+  // from beside `p`. That comes on top of the rounding of s.p.
   constexpr double kRounding = 0x1p-21;
   const glm::dvec3 from(p), n(s->n), on_surface(s->p);
-  const double gap = s->error + kRounding * glm::length(on_surface - from);
+  const double gap =
+      rounding_error(s->p, s->n, s->error) + kRounding * glm::length(on_surface - from);
   const glm::dvec3 target = on_surface + gap * n;
   if (!(glm::dot(from - target, n) > 0.0)) return std::nullopt;
 

@@ -53,6 +53,19 @@ bool is_real(float sigma_maj, float /*sigma_c*/, const Rgb& beta, Rgb& weight, R
   return real;
 }
 
+/// Light scattered straight on goes on as if nothing had happened. Nothing where it depends on the
+/// place or the colour how much of it there is.
+std::optional<float> part_scattered_straight_on(const ColorField& albedo, HenyeyGreenstein phase) {
+  const std::optional<Rgb> constant = albedo.constant();
+  if (!phase.keeps_direction() || !constant || !is_grey(*constant)) return std::nullopt;
+  return constant->r;
+}
+
+bool scatters_nothing(const ColorField& albedo, HenyeyGreenstein phase) {
+  const std::optional<Rgb> constant = albedo.constant();
+  return (constant && is_black(*constant)) || part_scattered_straight_on(albedo, phase);
+}
+
 float largest(float v) {
   return v;
 }
@@ -66,7 +79,9 @@ class HeterogeneousMedium final : public Medium {
   HeterogeneousMedium(std::shared_ptr<const Grid<Value>> density, float density_scale,
                       std::shared_ptr<const ColorField> albedo, HenyeyGreenstein phase)
       : density_(std::move(density)),
-        density_scale_(density_scale),
+        density_scale_(density_scale *
+                       (1.0f - part_scattered_straight_on(*albedo, phase).value_or(0.0f))),
+        only_absorbs_(scatters_nothing(*albedo, phase)),
         albedo_(std::move(albedo)),
         phase_(phase),
         bounds_(*density_) {
@@ -76,6 +91,10 @@ class HeterogeneousMedium final : public Medium {
   FreeFlight sample_free_flight(const Ray& ray, float t_max, const Rgb& beta,
                                 Sampler& sampler) const override {
     FreeFlight flight{.t = t_max};
+    if (only_absorbs_) {
+      flight.weight = transmittance(ray, t_max, sampler.rng());
+      return flight;
+    }
     const auto segment = clip_to_grid(ray, t_max, bounds_, density_->index_from_world());
     if (!segment) return flight;
 
@@ -150,7 +169,7 @@ class HeterogeneousMedium final : public Medium {
                 "x {} cells, g {:g}",
                 voxels.x, voxels.y, voxels.z, bounds_.total().min * density_scale_,
                 bounds_.total().max * density_scale_, cells.x, cells.y, cells.z, phase_.g),
-            .scatters = bounds_.total().max > 0.0f,
+            .scatters = bounds_.total().max > 0.0f && !only_absorbs_,
             .is_tracked = true,
             .is_chromatic = std::is_same_v<Value, Rgb>,
             .memory_bytes = density_->memory_bytes() + bounds_.memory_bytes()};
@@ -185,6 +204,7 @@ class HeterogeneousMedium final : public Medium {
 
   std::shared_ptr<const Grid<Value>> density_;
   float density_scale_;  // [1/unit] per density
+  bool only_absorbs_;
   std::shared_ptr<const ColorField> albedo_;
   HenyeyGreenstein phase_;
   BoundsGrid bounds_;

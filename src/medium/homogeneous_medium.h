@@ -9,8 +9,12 @@ namespace brume {
 class HomogeneousMedium final : public Medium {
  public:
   /// `sigma_t` [1/unit] >= 0 and `albedo` = sigma_s / sigma_t in [0, 1], per channel.
+  /// Light scattered straight on (g = 1) goes on as if nothing had happened, so that only what is
+  /// absorbed counts.
   HomogeneousMedium(const Rgb& sigma_t, const Rgb& albedo, HenyeyGreenstein phase)
-      : sigma_t_(sigma_t), albedo_(albedo), phase_(phase) {}
+      : sigma_t_(phase.keeps_direction() ? sigma_t * (1.0f - albedo) : sigma_t),
+        albedo_(phase.keeps_direction() ? Rgb{0.0f} : albedo),
+        phase_(phase) {}
 
   /// Beer-Lambert law: the fraction of light that crosses `distance` [unit] without a collision.
   Rgb transmittance(float distance) const;

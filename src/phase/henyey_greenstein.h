@@ -21,6 +21,7 @@ struct HenyeyGreenstein {
   float g = 0.0f;
 
   bool is_delta() const { return std::abs(g) == 1.0f; }
+  bool keeps_direction() const { return g == 1.0f; }
 
   /// Phase function, which is also the density of `sample` [1/sr]; 0 for a Dirac.
   /// The denominator (1-g)^2 + 2g(1-cos) is positive whatever the rounding.

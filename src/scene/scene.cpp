@@ -15,6 +15,35 @@ void place_in_world(Surface& surface, const std::shared_ptr<const Medium>& world
   if (surface.is_boundary && surface.exterior == nullptr) surface.exterior = world_medium;
 }
 
+/// Of surfaces at the same place the first is met: a light before the wall that it is mounted on,
+/// the wall before the boundary of the fog that it holds back.
+std::vector<Surface> with_invisible_last(std::vector<Surface> surfaces) {
+  const auto is_visible = [](const Surface& s) {
+    return s.radiance ||
+           s.bsdf->straight_transmittance(Vec3(0.0f, 0.0f, 1.0f), Vec2(0.5f)) != Rgb(1.0f);
+  };
+  const auto invisible = std::stable_partition(surfaces.begin(), surfaces.end(), is_visible);
+  std::stable_partition(surfaces.begin(), invisible,
+                        [](const Surface& s) { return s.radiance.has_value(); });
+  return surfaces;
+}
+
+/// Media that surfaces hold together: none of them lies outside a surface or inside an open one.
+std::vector<const Medium*> enclosed_media(const std::vector<Surface>& surfaces,
+                                          const Medium* world_medium) {
+  std::vector<const Medium*> enclosed;
+  for (const Surface& candidate : surfaces) {
+    const Medium* medium = candidate.interior.get();
+    if (!candidate.is_boundary || medium == nullptr || medium == world_medium) continue;
+    const bool reaches_out = std::any_of(surfaces.begin(), surfaces.end(), [&](const Surface& s) {
+      return s.is_boundary &&
+             (s.exterior.get() == medium || (s.interior.get() == medium && !s.shape->is_closed()));
+    });
+    if (!reaches_out) enclosed.push_back(medium);
+  }
+  return enclosed;
+}
+
 std::vector<std::shared_ptr<const Shape>> shapes_of(const std::vector<Surface>& surfaces) {
   std::vector<std::shared_ptr<const Shape>> shapes;
   for (const Surface& surface : surfaces) shapes.push_back(surface.shape);
@@ -45,11 +74,12 @@ std::vector<std::shared_ptr<const AreaLight>> area_lights_of(const std::vector<S
 
 Scene::Scene(SceneParts parts)
     : requirements_(requirements_of(parts)),
-      surfaces_(std::move(parts.surfaces)),
+      surfaces_(with_invisible_last(std::move(parts.surfaces))),
       world_medium_(std::move(parts.world_medium)),
       area_lights_(area_lights_of(surfaces_)),
       lights_(joined(area_lights_, parts.lights), std::move(parts.environments)) {
   for (Surface& surface : surfaces_) place_in_world(surface, world_medium_);
+  enclosed_ = enclosed_media(surfaces_, world_medium_.get());
   passes_straight_ = std::any_of(surfaces_.begin(), surfaces_.end(),
                                  [](const Surface& s) { return s.bsdf->passes_straight(); });
   if (!surfaces_.empty()) queries_.emplace(shapes_of(surfaces_));
@@ -63,9 +93,27 @@ std::optional<Hit> Scene::intersect(const Ray& ray, float t_max) const {
 }
 
 const Medium* Scene::medium_across(const Hit& hit, const Vec3& d, const Medium* medium) const {
-  const Surface& surface = surfaces_[hit.shape];
-  if (!surface.is_boundary) return medium;
-  return (glm::dot(d, hit.n) < 0.0f ? surface.interior : surface.exterior).get();
+  const bool enters = glm::dot(d, hit.n) < 0.0f;
+  const auto behind = [&](const Surface& surface, bool enters_it) {
+    if (!surface.is_boundary) return medium;
+    return (enters_it ? surface.interior : surface.exterior).get();
+  };
+  const Medium* result = behind(surfaces_[hit.shape], enters);
+  bool is_entered = enters && surfaces_[hit.shape].is_boundary;
+  for (std::uint32_t i = 0; i < hit.coincident_count && !is_entered; ++i) {
+    const Surface& surface = surfaces_[hit.coincident[i].shape];
+    if (!surface.is_boundary) continue;
+    is_entered = hit.coincident[i].faces_alike == enters;
+    result = behind(surface, is_entered);
+  }
+  return result;
+}
+
+bool Scene::is_boundary(const Hit& hit) const {
+  const auto begin = hit.coincident.begin();
+  return surfaces_[hit.shape].is_boundary ||
+         std::any_of(begin, begin + hit.coincident_count,
+                     [&](const Hit::Coincident& c) { return surfaces_[c.shape].is_boundary; });
 }
 
 Scene::MediumAt Scene::medium_at(const Vec3& p) const {
@@ -85,7 +133,7 @@ Scene::MediumAt Scene::medium_at(const Vec3& p) const {
       if (!aim || aim->p == p) continue;
       Ray ray{.o = p, .d = glm::normalize(aim->p - p)};
       auto hit = intersect(ray, kInfinity);
-      while (hit && !surfaces_[hit->shape].is_boundary) {
+      while (hit && !is_boundary(*hit)) {
         ray = hit->leave(ray.d);
         hit = intersect(ray, kInfinity);
       }
@@ -105,6 +153,11 @@ Scene::MediumAt Scene::medium_at(const Vec3& p) const {
   return {most->medium, votes.size() == 1};
 }
 
+const Medium* Scene::medium_to_infinity(const Medium* medium) const {
+  const bool ends = std::find(enclosed_.begin(), enclosed_.end(), medium) != enclosed_.end();
+  return ends ? world_medium_.get() : medium;
+}
+
 const Medium* Scene::medium_beside(const Vec3& from, const Medium* medium, const Vec3& to) const {
   if (from == to) return medium;
   Ray ray{.o = from, .d = glm::normalize(to - from)};
@@ -120,6 +173,7 @@ const Medium* Scene::medium_beside(const Vec3& from, const Medium* medium, const
 Rgb Scene::transmittance(const Ray& ray, float distance, const Medium* medium, Rng& rng) const {
   if (!passes_straight_) {
     if (queries_ && queries_->is_occluded(ray, distance)) return Rgb{0.0f};
+    if (!(distance < kInfinity)) medium = medium_to_infinity(medium);
     return medium == nullptr ? Rgb{1.0f} : medium->transmittance(ray, distance, rng);
   }
 
@@ -133,6 +187,7 @@ Rgb Scene::transmittance(const Ray& ray, float distance, const Medium* medium, R
       passing = bsdf(*hit).straight_transmittance(frame.to_local(-segment.d), hit->uv);
       if (is_black(passing)) return passing;
     }
+    if (!hit && !(distance < kInfinity)) medium = medium_to_infinity(medium);
     if (medium != nullptr) T *= medium->transmittance(segment, hit ? hit->t : distance, rng);
     if (!hit || is_black(T)) return T;
     T *= passing;

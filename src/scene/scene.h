@@ -30,7 +30,8 @@ class Scene {
 
   const Bsdf& bsdf(const Hit& hit) const { return *surfaces_[hit.shape].bsdf; }
 
-  /// Medium behind the surface for light that crosses it in direction `d` out of `medium`.
+  /// Medium behind the surface for light that crosses it in direction `d` out of `medium`. Of
+  /// surfaces at the same place, one that the light enters has the say.
   const Medium* medium_across(const Hit& hit, const Vec3& d, const Medium* medium) const;
 
   /// Medium for light that left the surface in direction `d_out` after it arrived from `wo` (the
@@ -48,6 +49,11 @@ class Scene {
     bool unanimous;
   };
   MediumAt medium_at(const Vec3& p) const;
+
+  /// Medium along a ray out of `medium` that meets no surface, however far it goes. What fills only
+  /// the inside of closed surfaces ends with them: such a ray starts on a surface, or rounding has
+  /// put it outside.
+  const Medium* medium_to_infinity(const Medium* medium) const;
 
   /// Medium at `to`, a point near `from` where the medium is known.
   const Medium* medium_beside(const Vec3& from, const Medium* medium, const Vec3& to) const;
@@ -71,10 +77,13 @@ class Scene {
   const std::vector<Requirement>& requirements() const { return requirements_; }
 
  private:
+  bool is_boundary(const Hit& hit) const;
+
   std::vector<Requirement> requirements_;
   std::vector<Surface> surfaces_;
   std::shared_ptr<const Medium> world_medium_;
-  bool passes_straight_;  // whether light passes straight through any surface
+  std::vector<const Medium*> enclosed_;  // media that fill only the inside of closed surfaces
+  bool passes_straight_;                 // whether light passes straight through any surface
   std::optional<RayQueries> queries_;
   std::vector<std::shared_ptr<const AreaLight>> area_lights_;  // [surface], null: emits nothing
   std::vector<std::size_t> light_index_;                       // [surface], in lights_

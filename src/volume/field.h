@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "core/rgb.h"
 
@@ -15,12 +16,15 @@ class ColorField {
  public:
   virtual ~ColorField() = default;
   virtual Rgb value(const Vec3& p) const = 0;
+  /// The colour, if it is known to be the same everywhere.
+  virtual std::optional<Rgb> constant() const { return std::nullopt; }
 };
 
 class ConstantField final : public ColorField {
  public:
   explicit ConstantField(const Rgb& value) : value_(value) {}
   Rgb value(const Vec3& /*p*/) const override { return value_; }
+  std::optional<Rgb> constant() const override { return value_; }
 
  private:
   Rgb value_;

@@ -111,6 +111,31 @@ TEST(RayQueries, SeesThingsFromFarAway) {
   }
 }
 
+TEST(RayQueries, NamesAllSurfacesAtTheSamePlace) {
+  for (const double offset : {0.0, 1.0, 1e3}) {
+    // Two cubes that share a face, turned so that rounding moves the one against the other.
+    const glm::dmat4 to_world = test::placed(1.0, offset * glm::dvec3(1.0, -0.7, 0.4));
+    const auto cube_at = [&](double x) {
+      return std::make_shared<Cube>(glm::translate(to_world, glm::dvec3(x, 0.0, 0.0)), false);
+    };
+    const RayQueries queries(std::vector<test::ShapePtr>{cube_at(-1.0), cube_at(1.0)});
+    Rng rng(6);
+    for (int i = 0; i < 10000; ++i) {
+      const double side = i % 2 == 0 ? 1.0 : -1.0;
+      const Vec2 from = 0.9f * (2.0f * rng.next_vec2() - 1.0f);
+      const Vec2 to = 0.9f * (2.0f * rng.next_vec2() - 1.0f);
+      const Vec3 o(to_world * glm::dvec4(side, from, 1.0));
+      const Vec3 target(to_world * glm::dvec4(0.0, to, 1.0));
+      const std::optional<Hit> hit = queries.intersect({o, glm::normalize(target - o)}, kInfinity);
+      ASSERT_TRUE(hit);
+      EXPECT_EQ(hit->shape, 0u);
+      ASSERT_EQ(hit->coincident_count, 1u);
+      EXPECT_EQ(hit->coincident[0].shape, 1u);
+      EXPECT_FALSE(hit->coincident[0].faces_alike);
+    }
+  }
+}
+
 TEST(RayQueries, AnswersTheSameInEveryThread) {
   const std::vector<test::ShapePtr> shapes{
       std::make_shared<TriangleMesh>(test::sphere_mesh(4), test::skewed(), false, false),

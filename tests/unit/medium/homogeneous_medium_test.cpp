@@ -20,6 +20,15 @@ TEST(HomogeneousMedium, TransmittanceIsBeerLambert) {
   EXPECT_EQ(medium.transmittance(0.0f), Rgb(1.0f));
 }
 
+TEST(HomogeneousMedium, LightScatteredStraightOnWasNotScattered) {
+  const HomogeneousMedium medium(Rgb(1.0f, 2.0f, 3.0f), Rgb(1.0f, 0.5f, 0.0f), {.g = 1.0f});
+  const Rgb T = medium.transmittance(2.0f);
+  EXPECT_EQ(T.r, 1.0f);
+  EXPECT_FLOAT_EQ(T.g, std::exp(-2.0f));
+  EXPECT_FLOAT_EQ(T.b, std::exp(-6.0f));
+  EXPECT_FALSE(medium.summary().scatters);
+}
+
 TEST(HomogeneousMedium, SampledDistancesHaveTheMeanFreePath) {
   const HomogeneousMedium medium(Rgb(0.25f, 0.0f, 4.0f), Rgb(1.0f), {});
   for (const int channel : {0, 2}) {
