@@ -143,7 +143,10 @@ void add_wrapped_layer(OpenGrid& grid, const glm::ivec3& n, Wrap wrap) {
       for (int x = -1; x <= n.x; x += outside ? 1 : n.x + 1) {
         const openvdb::Coord inside(wrapped_index(x, n.x, wrap), wrapped_index(y, n.y, wrap),
                                     wrapped_index(z, n.z, wrap));
-        accessor.setValue({x, y, z}, accessor.getValue(inside));
+        // By value: setting a voxel may do away with the tile that a reference leads to. Without
+        // the background, the layer of an empty face takes no memory.
+        const auto value = typename OpenGrid::ValueType(accessor.getValue(inside));
+        if (value != grid.background()) accessor.setValue({x, y, z}, value);
       }
     }
 }

@@ -3,11 +3,9 @@
 #include <openvdb/io/Compression.h>
 #include <openvdb/openvdb.h>
 
-#include <filesystem>
-#include <fstream>
-
 #include "core/error.h"
 #include "io/grid_file.h"
+#include "io/vdb_stream.h"
 
 namespace brume {
 namespace {
@@ -21,56 +19,7 @@ namespace {
 //     per grid: name, type, name of the grid whose tree it shares, 3 positions |
 //               compression, metadata, transform, topology | voxel values |
 
-constexpr std::uint32_t kOldestFormat = 220;  // of OpenVDB 1.0, 2012
-
-class VdbStream {
- public:
-  explicit VdbStream(const std::string& path)
-      : stream_(path, std::ios::binary), size_(std::int64_t(std::filesystem::file_size(path))) {
-    stream_.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
-  }
-
-  std::istream& stream() { return stream_; }
-  std::int64_t size() const { return size_; }  // [bytes]
-  std::int64_t position() { return std::int64_t(stream_.tellg()); }
-  void seek(std::int64_t position) { stream_.seekg(position); }
-
-  template <class T>
-  T read() {
-    T value{};
-    stream_.read(reinterpret_cast<char*>(&value), sizeof value);
-    return value;
-  }
-
-  /// Bytes of a block whose length precedes it.
-  std::string read_string() {
-    std::string text(checked_length(read<std::uint32_t>()), '\0');
-    if (!text.empty()) stream_.read(text.data(), std::streamsize(text.size()));
-    return text;
-  }
-
-  /// Passes over a metadata dictionary, looking only at its lengths.
-  void skip_metadata() {
-    const auto count = read<std::uint32_t>();
-    for (std::uint32_t i = 0; i < count; ++i) {
-      read_string();                                                       // name
-      read_string();                                                       // type
-      const std::uint32_t length = checked_length(read<std::uint32_t>());  // of the value
-      seek(position() + length);
-    }
-  }
-
- private:
-  std::uint32_t checked_length(std::uint32_t length) {
-    if (std::int64_t(length) > size_ - position())
-      throw std::runtime_error(
-          fmt::format("a text of {} bytes where {} are left", length, size_ - position()));
-    return length;
-  }
-
-  std::ifstream stream_;
-  std::int64_t size_;
-};
+constexpr std::uint32_t kOldestFormat = 222;  // of OpenVDB 1.1, 2013
 
 struct Entry {
   std::string name, type;
@@ -99,6 +48,18 @@ std::string class_in_words(openvdb::GridClass grid_class) {
     default:
       return "no class";
   }
+}
+
+/// Empty for types that brume never reads.
+std::optional<ValueLayout> layout_of(const std::string& value_type, bool half) {
+  constexpr int kHalf = 2;
+  if (value_type == "float") return ValueLayout{4, half ? kHalf : 4};
+  if (value_type == "double") return ValueLayout{8, half ? kHalf : 8};
+  if (value_type == "vec3s") return ValueLayout{12, half ? 3 * kHalf : 12};
+  if (value_type == "vec3d") return ValueLayout{24, half ? 3 * kHalf : 24};
+  if (value_type == "int32") return ValueLayout{4, 4};
+  if (value_type == "int64") return ValueLayout{8, 8};
+  return std::nullopt;
 }
 
 int channels_of(const std::string& value_type) {
@@ -168,11 +129,7 @@ class VdbFile final : public GridFile {
     const auto major = file_.read<std::uint32_t>();
     const auto minor = file_.read<std::uint32_t>();
     has_offsets_ = file_.read<char>() != 0;
-    std::uint32_t compression = openvdb::io::COMPRESS_ZIP | openvdb::io::COMPRESS_ACTIVE_MASK;
-    if (format < openvdb::OPENVDB_FILE_VERSION_NODE_MASK_COMPRESSION && file_.read<char>() == 0)
-      compression = openvdb::io::COMPRESS_NONE;
     openvdb::io::setVersion(file_.stream(), {major, minor}, format);
-    openvdb::io::setDataCompression(file_.stream(), compression);
     constexpr int kUuidLength = 36;
     file_.seek(file_.position() + kUuidLength);
     file_.skip_metadata();
@@ -238,9 +195,7 @@ class VdbFile final : public GridFile {
 
   /// Reads all but the tree.
   openvdb::GridBase::Ptr open_here(const Entry& entry) {
-    if (openvdb::io::getFormatVersion(file_.stream()) >=
-        openvdb::OPENVDB_FILE_VERSION_NODE_MASK_COMPRESSION)
-      openvdb::io::setDataCompression(file_.stream(), file_.read<std::uint32_t>());
+    openvdb::io::setDataCompression(file_.stream(), file_.read<std::uint32_t>());
     const std::int64_t metadata = file_.position();
     file_.skip_metadata();
     const std::int64_t transform = file_.position();
@@ -259,8 +214,12 @@ class VdbFile final : public GridFile {
   }
 
   void read_tree(openvdb::GridBase& grid) {
+    const auto layout = layout_of(grid.valueType(), grid.saveFloatAsHalf());
+    if (!layout)
+      throw std::runtime_error(fmt::format("its values of type {} cannot be read",
+                                           value_type_in_words(grid.valueType(), false)));
     const std::int64_t position = file_.position();
-    if (file_.read<std::int32_t>() != 1) throw std::runtime_error("damaged tree");
+    check_tree(file_, *layout, openvdb::io::getDataCompression(file_.stream()));
     file_.seek(position);
     grid.readTopology(file_.stream());
     grid.readBuffers(file_.stream());
@@ -284,7 +243,8 @@ class VdbFile final : public GridFile {
       const openvdb::Vec3d size = grid->voxelSize();
       result.voxel_size = glm::dvec3(size.x(), size.y(), size.z());
       result.extent = recorded_extent(*grid);
-      if (!result.extent) result.extent = extent_of(*read(index));
+      if (!result.extent && layout_of(grid->valueType(), entry.half))
+        result.extent = extent_of(*read(index));
     });
     return result;
   }

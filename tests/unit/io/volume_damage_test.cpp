@@ -2,6 +2,8 @@
 #include <nanovdb/util/IO.h>
 #include <nanovdb/util/OpenToNanoVDB.h>
 
+#include <cmath>
+
 #include "core/rng.h"
 #include "volume_fixture.h"
 
@@ -75,11 +77,30 @@ TEST_F(DamagedFileLaw, VdbEndsInAnError) {
   }
 }
 
-TEST_F(DamagedFileLaw, TruncatedNvdbEndsInAnError) {
+TEST_F(DamagedFileLaw, VdbBlocksCannotOverrunTheirNodes) {
+  // Values that do not compress are stored as they are, their size in bytes negated before them.
+  Rng rng(3);
+  const auto grid = openvdb::FloatGrid::create(0.0f);
+  grid->setName("density");
+  for (auto ijk = openvdb::CoordBBox(openvdb::Coord(0), openvdb::Coord(7)).begin(); ijk; ++ijk)
+    grid->tree().setValue(*ijk, std::exp2(80.0f * rng.next_float()));
+  std::string bytes = read_bytes(write_vdb({grid}));
+  const std::int64_t stored = -512 * 4, claimed = -65536;
+  const auto place = bytes.find(std::string(reinterpret_cast<const char*>(&stored), 8));
+  ASSERT_NE(place, std::string::npos);
+  bytes.replace(place, 8, reinterpret_cast<const char*>(&claimed), 8);
+  bytes.append(65536, '\0');
+  EXPECT_THAT(test::error_of([&] { load(write_bytes("claims.vdb", bytes)); }),
+              ::testing::HasSubstr("damaged values"));
+}
+
+TEST_F(DamagedFileLaw, NvdbEndsInAnError) {
   for (const auto codec :
        {nanovdb::io::Codec::NONE, nanovdb::io::Codec::ZIP, nanovdb::io::Codec::BLOSC}) {
     nanovdb::io::writeGrid(path("test.nvdb"), nanovdb::openToNanoVDB(*ball()), codec);
-    truncate(read_bytes(path("test.nvdb")));
+    const std::string bytes = read_bytes(path("test.nvdb"));
+    truncate(bytes);
+    scramble(bytes, 60);
   }
 }
 

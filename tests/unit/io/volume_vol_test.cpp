@@ -74,6 +74,15 @@ TEST_F(VolFileLaw, OneLayerOutsideFollowsTheWrapMode) {
   EXPECT_EQ(at_corner(Wrap::kBackground), std::pair(0.0f, 0.0f));
 }
 
+TEST_F(VolFileLaw, OneLayerOutsideEmptyVoxelsIsEmpty) {
+  std::vector<float> values(64, 0.0f);
+  values[63] = 1.0f;
+  const auto grid = load(write_vol({64, 1, 1}, 1, values));
+  for (int x = -1; x < 63; ++x)
+    for (const glm::ivec2 beside : {glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(-1, 1)})
+      EXPECT_EQ(voxel(*grid, x, beside.x, beside.y), 0.0f) << x;
+}
+
 TEST_F(VolFileLaw, ThreeChannelsAreAColor) {
   const std::string file = write_vol({2, 1, 1}, 3, std::vector<float>{1, 2, 3, 4, 5, 6});
   const auto grid = load_color_grid({.path = file}, notices_);

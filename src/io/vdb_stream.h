@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+namespace brume {
+
+/// A .vdb file being read: throws at its end instead of going on, and compares lengths with what
+/// is left before it believes them.
+class VdbStream {
+ public:
+  explicit VdbStream(const std::string& path)
+      : stream_(path, std::ios::binary), size_(std::int64_t(std::filesystem::file_size(path))) {
+    stream_.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
+  }
+
+  std::istream& stream() { return stream_; }
+  std::int64_t size() const { return size_; }  // [bytes]
+  std::int64_t position() { return std::int64_t(stream_.tellg()); }
+  void seek(std::int64_t position) { stream_.seekg(position); }
+  void skip(std::int64_t length) { seek(position() + checked_length(length)); }
+
+  template <class T>
+  T read() {
+    T value{};
+    stream_.read(reinterpret_cast<char*>(&value), sizeof value);
+    return value;
+  }
+
+  /// Bytes of a block whose length precedes it.
+  std::string read_string() {
+    const std::uint32_t length = read<std::uint32_t>();
+    std::string text(std::size_t(checked_length(length)), '\0');
+    if (!text.empty()) stream_.read(text.data(), std::streamsize(text.size()));
+    return text;
+  }
+
+  /// Passes over a metadata dictionary, looking only at its lengths.
+  void skip_metadata() {
+    const auto count = read<std::uint32_t>();
+    for (std::uint32_t i = 0; i < count; ++i) {
+      read_string();                // name
+      read_string();                // type
+      skip(read<std::uint32_t>());  // value
+    }
+  }
+
+  /// Throws unless `length` bytes are left.
+  std::int64_t checked_length(std::int64_t length) {
+    if (length > size_ - position())
+      throw std::runtime_error(
+          fmt::format("a block of {} bytes where {} are left", length, size_ - position()));
+    return length;
+  }
+
+ private:
+  std::ifstream stream_;
+  std::int64_t size_;
+};
+
+/// Bytes of one value: in memory, and as stored in nodes, where it may be half floats.
+struct ValueLayout {
+  int full, stored;
+};
+
+/// Walks the tree that begins at the current position and throws std::runtime_error unless every
+/// block of values has the length that OpenVDB is about to read: an uncompressed block that claims
+/// more would overrun its memory. `compression` holds the flags of openvdb::io.
+void check_tree(VdbStream& file, const ValueLayout& layout, std::uint32_t compression);
+
+}  // namespace brume
