@@ -13,7 +13,7 @@ fi
 scripts/check_references.sh || failed=1
 
 # A module includes only modules above it.
-modules=(core phase volume medium geometry material light camera film scene integrator io render app)
+modules=(core phase volume medium geometry material light camera film scene integrator io render study app)
 for i in "${!modules[@]}"; do
   below=$(IFS='|'; echo "${modules[*]:i+1}")
   [ -z "$below" ] && continue

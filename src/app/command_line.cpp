@@ -2,11 +2,13 @@
 #include "app/command_line.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
 
+#include "app/study_options.h"
 #include "app/version.h"
 #include "core/error.h"
 #include "io/nearest_name.h"
@@ -193,6 +195,12 @@ void add_info(CLI::App& app, InfoOptions& options) {
   add_definitions(info, options.definitions);
 }
 
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
 /// `unknown` as the user wrote it, with the nearest option or command.
 std::string unknown_word_message(const CLI::App& app, const std::string& unknown) {
   const auto chosen = app.get_subcommands();
@@ -203,8 +211,8 @@ std::string unknown_word_message(const CLI::App& app, const std::string& unknown
     return fmt::format("unknown option \"{}\"{}", unknown, suggestion(unknown, names));
   }
   if (!chosen.empty()) return fmt::format("one argument too many: \"{}\"", unknown);
-  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-  return fmt::format("unknown command \"{}\"{}", unknown, suggestion(unknown, names));
+  return fmt::format("unknown command \"{}\"{}", unknown,
+                     suggestion(unknown, command_names(app)));
 }
 
 int report_mistake(const CLI::App& app, const CLI::ParseError& error) {
@@ -215,7 +223,7 @@ int report_mistake(const CLI::App& app, const CLI::ParseError& error) {
   if (!rest.empty() && (lacks_command || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr))
     message = unknown_word_message(app, rest.front());
   else if (lacks_command)
-    message = "a command is needed: render or info";
+    message = fmt::format("a command is needed: {}", fmt::join(command_names(app), ", "));
   fmt::print(stderr, "brume: {}\nTry: brume {}--help\n", message,
              lacks_command ? "" : app.get_subcommands().front()->get_name() + " ");
   return 2;
@@ -223,7 +231,8 @@ int report_mistake(const CLI::App& app, const CLI::ParseError& error) {
 
 }  // namespace
 
-std::variant<RenderOptions, InfoOptions, Done> parse_command_line(int argc, char** argv) {
+std::variant<RenderOptions, InfoOptions, CompareOptions, Done> parse_command_line(int argc,
+                                                                                  char** argv) {
   CLI::App app("brume: unbiased renderer for fog, smoke, fire and clouds", "brume");
   app.set_version_flag("--version", std::string("brume ") + kVersion);
   app.require_subcommand(1);
@@ -232,14 +241,17 @@ std::variant<RenderOptions, InfoOptions, Done> parse_command_line(int argc, char
       "  brume render cloud.vdb -o cloud.png\n"
       "  brume render fog.xml --spp 256 -o fog.exr -o fog.png\n"
       "  brume render fog.xml --time 90s -D fog_sigma_t=0.5\n"
-      "  brume info cloud.vdb\n\n"
+      "  brume info cloud.vdb\n"
+      "  brume compare fog.exr reference.exr -o error.png\n\n"
       "Exit codes: 0 done; 1 could not finish; 2 wrong usage or bad input; 130 interrupted, with\n"
       "what was rendered saved.");
 
   RenderOptions render;
   InfoOptions info;
+  CompareOptions compare;
   add_render(app, render);
   add_info(app, info);
+  add_compare(app, compare);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked_for) {  // --help and --version
@@ -248,6 +260,7 @@ std::variant<RenderOptions, InfoOptions, Done> parse_command_line(int argc, char
     return Done{report_mistake(app, error)};
   }
   if (app.got_subcommand("render")) return render;
+  if (app.got_subcommand("compare")) return compare;
   return info;
 }
 

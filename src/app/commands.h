@@ -11,5 +11,6 @@ inline constexpr int kExitInterrupted = 130;
 /// Each returns the program's exit code, or throws Error.
 int run_render(const RenderOptions& options);
 int run_info(const InfoOptions& options);
+int run_compare(const CompareOptions& options);
 
 }  // namespace brume

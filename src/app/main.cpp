@@ -14,6 +14,8 @@ int run(int argc, char** argv) {
   if (const auto* done = std::get_if<brume::Done>(&command)) return done->exit_code;
   if (const auto* options = std::get_if<brume::RenderOptions>(&command))
     return brume::run_render(*options);
+  if (const auto* options = std::get_if<brume::CompareOptions>(&command))
+    return brume::run_compare(*options);
   return brume::run_info(std::get<brume::InfoOptions>(command));
 }
 

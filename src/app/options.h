@@ -36,6 +36,13 @@ struct RenderOptions {
   bool any_volume_option() const { return !grid.empty() || density_scale || albedo || g; }
 };
 
+/// `brume compare`.
+struct CompareOptions {
+  std::string picture, reference;
+  std::string heat_map_path{};  // empty: none
+  std::string json_path{};      // empty: none
+};
+
 /// `brume info`.
 struct InfoOptions {
   std::string input;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
+
 namespace brume {
 
 class Film;
@@ -13,5 +15,12 @@ struct PictureError {
 };
 
 PictureError picture_error(const Film& film);
+
+/// The relative RMSE of brume, of renders, comparisons and studies alike: the root of the squared
+/// error averaged over all pixels and channels, over the mean radiance of the picture (of the
+/// reference where there is one). 0 of a picture without error, however dark.
+inline double relative_rmse(double mean_squared_error, double mean_radiance) {
+  return mean_squared_error > 0.0 ? std::sqrt(mean_squared_error) / mean_radiance : 0.0;
+}
 
 }  // namespace brume

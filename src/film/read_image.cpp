@@ -44,10 +44,11 @@ std::vector<std::size_t> colour_channels(const OIIO::ImageSpec& spec, const std:
   return positions;
 }
 
-void require_finite(const Image& image, const std::string& path) {
+/// The first `channels` of the image hold no NaN and no infinity.
+void require_finite(const Image& image, std::size_t channels, const std::string& path) {
   std::size_t count = 0, first = 0;
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-    if (std::isfinite(image.pixels[i])) continue;
+    if (i % image.channels.size() >= channels || std::isfinite(image.pixels[i])) continue;
     if (count++ == 0) first = i;
   }
   if (count == 0) return;
@@ -58,9 +59,18 @@ void require_finite(const Image& image, const std::string& path) {
                   image.channels[first % image.channels.size()]));
 }
 
-}  // namespace
+constexpr const char* kErrorLayers[] = {"stderr.R", "stderr.G", "stderr.B"};
 
-Image read_image(const std::string& path, IntegerEncoding encoding) {
+/// Positions of the error layers in the file; none unless all are there.
+std::vector<std::size_t> error_channels(const OIIO::ImageSpec& spec) {
+  std::vector<std::size_t> positions;
+  for (const char* name : kErrorLayers)
+    if (const auto position = find_channel(spec, name)) positions.push_back(*position);
+  if (positions.size() != std::size(kErrorLayers)) positions.clear();
+  return positions;
+}
+
+Image read(const std::string& path, IntegerEncoding encoding, bool with_errors) {
   if (!std::filesystem::exists(path))
     throw Error(fmt::format("{}: no such file", path), ErrorKind::kEnvironment);
 
@@ -72,14 +82,20 @@ Image read_image(const std::string& path, IntegerEncoding encoding) {
         fmt::format("{}: cannot be read as a picture: {}", path, one_line(OIIO::geterror())));
 
   const OIIO::ImageSpec& spec = file->spec();
-  const std::vector<std::size_t> source = colour_channels(spec, path);
+  std::vector<std::size_t> source = colour_channels(spec, path);
+  const std::size_t colours = source.size();
+  const std::vector<std::size_t> errors =
+      with_errors ? error_channels(spec) : std::vector<std::size_t>{};
+  source.insert(source.end(), errors.begin(), errors.end());
   const auto file_channels = std::size_t(spec.nchannels);
   std::vector<float> values(std::size_t(spec.width) * std::size_t(spec.height) * file_channels);
   if (!file->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data()))
     throw Error(fmt::format("{}: damaged picture: {}", path, one_line(file->geterror())));
 
   Image image{.width = spec.full_width, .height = spec.full_height, .channels = {"R", "G", "B"}};
-  if (source.size() == 4) image.channels.push_back("A");
+  if (colours == 4) image.channels.push_back("A");
+  if (!errors.empty())
+    image.channels.insert(image.channels.end(), std::begin(kErrorLayers), std::end(kErrorLayers));
   image.pixels.assign(std::size_t(image.width) * std::size_t(image.height) * source.size(), 0.0f);
 
   const bool decode = encoding == IntegerEncoding::kSrgb && !spec.format.is_floating_point();
@@ -96,8 +112,18 @@ Image read_image(const std::string& path, IntegerEncoding encoding) {
       }
     }
   }
-  require_finite(image, path);
+  require_finite(image, colours, path);
   return image;
+}
+
+}  // namespace
+
+Image read_image(const std::string& path, IntegerEncoding encoding) {
+  return read(path, encoding, false);
+}
+
+Image read_image_with_errors(const std::string& path) {
+  return read(path, IntegerEncoding::kSrgb, true);
 }
 
 }  // namespace brume

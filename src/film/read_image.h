@@ -19,4 +19,8 @@ enum class IntegerEncoding {
 /// colour, or holds a NaN or infinite pixel.
 Image read_image(const std::string& path, IntegerEncoding encoding = IntegerEncoding::kSrgb);
 
+/// As `read_image`, followed by the layers `stderr.R`, `.G`, `.B` (standard error of the colours)
+/// where the file has all three. They may be infinite: nothing is known.
+Image read_image_with_errors(const std::string& path);
+
 }  // namespace brume

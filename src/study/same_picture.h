@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "study/picture.h"
+
+namespace brume {
+
+/// Whether two pictures differ by more than their standard errors explain.
+///
+/// z is the difference of a pixel's channel over its standard error. Pixels know their own error
+/// from few samples, so that z spreads wider than a normal variable even between renders of the
+/// same scene, and its mean square is for the eye. `p_same` is for decisions: it tests the
+/// differences of whole blocks of pixels, and of the whole picture, against the sum of the
+/// variances, by Student's t with the degrees of freedom of Satterthwaite 1946 at one a pixel, so
+/// that a block whose variance rests on a few fireflies counts as knowing little. The blocks'
+/// probabilities, which need not be independent, are joined by the Cauchy combination (Liu and Xie
+/// 2020). It assumes that pixels are independent, as brume's are, and that a block has enough
+/// samples for its sum to be nearly symmetric.
+struct SamePicture {
+  std::uint64_t compared = 0;    // values (pixels times channels) with a finite, positive error
+  std::uint64_t unknown = 0;     // left out: an error is infinite
+  std::uint64_t impossible = 0;  // differ although both claim to be exact
+  double mean_square_z = 0.0;    // 1 when the errors are right; 0 when nothing was compared
+  double share_beyond_3 = 0.0;   // of |z|; 0.0027 of a normal variable
+  double p_same = 1.0;           // small: not two pictures of the same scene
+};
+
+/// Pictures have the same size, and at least one has errors; one without is taken for exact.
+SamePicture test_same_picture(const Picture& a, const Picture& b);
+
+}  // namespace brume
