@@ -211,8 +211,7 @@ std::string unknown_word_message(const CLI::App& app, const std::string& unknown
     return fmt::format("unknown option \"{}\"{}", unknown, suggestion(unknown, names));
   }
   if (!chosen.empty()) return fmt::format("one argument too many: \"{}\"", unknown);
-  return fmt::format("unknown command \"{}\"{}", unknown,
-                     suggestion(unknown, command_names(app)));
+  return fmt::format("unknown command \"{}\"{}", unknown, suggestion(unknown, command_names(app)));
 }
 
 int report_mistake(const CLI::App& app, const CLI::ParseError& error) {
