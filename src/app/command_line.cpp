@@ -106,6 +106,32 @@ void add_definitions(CLI::App& command, std::map<std::string, std::string>& defi
       ->allow_extra_args(false);
 }
 
+/// The table of settings, for help.
+std::string describe_settings() {
+  const EstimatorSettings defaults;
+  std::string text =
+      "Settings (--set NAME=VALUE; --set textbook: what renderers commonly do, to compare with)\n";
+  for (const Setting& setting : setting_table())
+    text +=
+        fmt::format("  {:<16} {} (default {}){}\n{:19}{}\n", setting.name, setting.values,
+                    setting.value(defaults), setting.biased ? "; biased" : "", "", setting.meaning);
+  return text;
+}
+
+void add_settings(CLI::App& command, EstimatorSettings& settings) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--set",
+          [&settings](const std::vector<std::string>& assignments) {
+            for (const std::string& assignment : assignments) apply_setting(assignment, settings);
+          },
+          "How the picture is computed, see below; may be repeated")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false)
+      ->group("The picture");
+  command.footer(describe_settings());
+}
+
 void add_render(CLI::App& app, RenderOptions& options) {
   CLI::App& render = *app.add_subcommand("render", "Render a scene or a volume to picture files");
   add_input(render, options.input, "Scene (.xml) or volume (.vdb, .nvdb, .vol)");
@@ -153,6 +179,8 @@ void add_render(CLI::App& app, RenderOptions& options) {
       ->type_name("N")
       ->group(picture);
   add_definitions(render, options.definitions);
+
+  add_settings(render, options.settings);
 
   const auto volume = "A bare volume (the scene around it is made to fit and printed)";
   render.add_option("--grid", options.grid, "Density grid by name, or name[index] of several")

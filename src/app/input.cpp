@@ -25,6 +25,7 @@ LoadedScene load_input(const RenderOptions& options, Notices& notices) {
     if (options.albedo) volume.albedo = *options.albedo;
     if (options.g) volume.g = *options.g;
     if (options.size) volume.size = *options.size;
+    volume.settings = options.settings;
     return make_volume_scene(volume, notices);
   }
   if (std::filesystem::path(options.input).extension() != ".xml")
@@ -37,7 +38,7 @@ LoadedScene load_input(const RenderOptions& options, Notices& notices) {
         fmt::format("--grid, --density-scale, --albedo and --g are for a bare volume; {} "
                     "is a scene and says so itself",
                     options.input));
-  return load_scene(options.input, options.definitions, notices, options.size);
+  return load_scene(options.input, options.definitions, notices, options.size, options.settings);
 }
 
 void print_notices(const Notices& notices) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/rgb.h"
+#include "io/estimator_settings.h"
 
 namespace brume {
 
@@ -24,6 +25,7 @@ struct RenderOptions {
   std::map<std::string, std::string> definitions{};
   std::vector<std::string> layers{};
   float exposure = 0.0f;  // [stops]
+  EstimatorSettings settings{};
   bool quiet = false;
   std::string statistics_path{};  // empty: none
 

@@ -50,15 +50,24 @@ RenderSettings render_settings(const RenderOptions& options, const LoadedScene& 
 
 /// Camera samples of the part of the picture that is rendered.
 SampleFunction sample_function(const PathIntegrator& integrator, const FilmSettings& film,
-                               std::uint64_t seed) {
-  return [&integrator, &film, seed](std::uint32_t x, std::uint32_t y, std::uint32_t index) {
+                               std::uint64_t seed, bool independent) {
+  return [&integrator, &film, seed, independent](std::uint32_t x, std::uint32_t y,
+                                                 std::uint32_t index) {
     const Vec2 corner = Vec2(film.crop_offset) + Vec2(float(x), float(y));
     const std::uint32_t pixel =
         std::uint32_t(corner.y) * std::uint32_t(film.size.x) + std::uint32_t(corner.x);
-    Sampler sampler(seed, pixel, index);
+    Sampler sampler(seed, pixel, index, independent);
     const Vec2 offset = film.filter->sample(sampler.next_2d());
     return integrator.sample((corner + 0.5f + offset) / Vec2(film.size), sampler);
   };
+}
+
+/// name=value, or "none".
+std::string in_words(const SettingValues& settings) {
+  std::string words;
+  for (const auto& [name, value] : settings)
+    words += fmt::format("{}{}={}", words.empty() ? "" : " ", name, value);
+  return words.empty() ? "none" : words;
 }
 
 Metadata metadata(const RenderStatistics& s, const RenderOptions& options,
@@ -74,7 +83,8 @@ Metadata metadata(const RenderStatistics& s, const RenderOptions& options,
       {"brume:rr_depth", path.rr_depth},
       {"brume:relative_rms_error", s.error.relative_rms},
       {"brume:relative_rms_error_bound_95", s.error.upper_bound},
-      {"brume:biased_settings", std::string("none")},
+      {"brume:settings", in_words(changed_settings(options.settings))},
+      {"brume:biased_settings", in_words(biased_settings(options.settings))},
   };
   for (const auto& [name, value] : options.definitions)
     data.push_back({"brume:define:" + name, value});
@@ -119,14 +129,16 @@ int run_render(const RenderOptions& options) {
 
   const InterruptGuard guard;
   const double load_seconds = seconds_since(begin);
+  const bool independent = options.settings.numbers == EstimatorSettings::Numbers::kIndependent;
   const RenderResult result =
-      render(sample_function(integrator, loaded.film, options.seed),
+      render(sample_function(integrator, loaded.film, options.seed, independent),
              render_settings(options, loaded, load_seconds, outputs.size()), film);
 
   const RenderStatistics statistics{.input = options.input,
                                     .outputs = outputs,
                                     .size = loaded.film.crop_size,
                                     .seed = options.seed,
+                                    .settings = options.settings,
                                     .result = result,
                                     .load_seconds = load_seconds,
                                     .error = picture_error(film),

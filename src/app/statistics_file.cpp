@@ -26,6 +26,23 @@ std::string describe(StopReason reason) {
   return {};
 }
 
+namespace {
+
+/// An object of values by name.
+nlohmann::ordered_json as_json(const SettingValues& settings) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const auto& [name, value] : settings) json[name] = value;
+  return json;
+}
+
+nlohmann::json names_of(const SettingValues& settings) {
+  nlohmann::json names = nlohmann::json::array();
+  for (const auto& setting : settings) names.push_back(setting.first);
+  return names;
+}
+
+}  // namespace
+
 void write_statistics(const std::string& path, const RenderStatistics& statistics) {
   nlohmann::ordered_json json = {
       {"version", kVersion},
@@ -40,7 +57,8 @@ void write_statistics(const std::string& path, const RenderStatistics& statistic
       {"min_spp", statistics.result.min_spp},
       {"mean_spp", statistics.result.mean_spp},
       {"bad_samples", statistics.bad_samples ? statistics.bad_samples->count : 0},
-      {"biased_settings", nlohmann::json::array()},
+      {"settings", as_json(changed_settings(statistics.settings))},
+      {"biased_settings", names_of(biased_settings(statistics.settings))},
   };
   // JSON has no infinity: an error that is not known is null.
   const auto number = [](double x) {

@@ -6,6 +6,7 @@
 
 #include "film/film.h"
 #include "film/picture_error.h"
+#include "io/estimator_settings.h"
 #include "render/render.h"
 
 namespace brume {
@@ -16,6 +17,7 @@ struct RenderStatistics {
   std::vector<std::string> outputs;
   glm::ivec2 size;
   std::uint64_t seed;
+  EstimatorSettings settings;
   RenderResult result;
   double load_seconds;
   PictureError error;

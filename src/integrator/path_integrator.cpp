@@ -48,11 +48,12 @@ CameraSample PathIntegrator::sample(const Vec2& film, Sampler& sampler) const {
     if (hit) add_emission(path, *hit, sampler);
     if (!hit && !(path.t_max < kInfinity)) path.medium = scene_.medium_to_infinity(path.medium);
     if (path.medium != nullptr) {
-      const Segment segment{.ray = path.ray,
-                            .t_end = hit ? hit->t : path.t_max,
-                            .beta = path.beta,
-                            .medium = path.medium,
-                            .seeks_lights = path.depth < kDepthThatSeeksLights};
+      const Segment segment{
+          .ray = path.ray,
+          .t_end = hit ? hit->t : path.t_max,
+          .beta = path.beta,
+          .medium = path.medium,
+          .seeks_lights = settings_.lighting.near_lights && path.depth < kDepthThatSeeksLights};
       const FreeFlight flight =
           path.medium->sample_free_flight(path.ray, segment.t_end, path.beta, sampler);
       path.beta *= flight.weight;
@@ -123,7 +124,8 @@ void PathIntegrator::connect(Path& path, const Vec3& p, const LightSample& light
                              float value, Sampler& sampler) const {
   // A shadow ray costs as much as a scattering: directions into which less is scattered than
   // isotropically get one only with that proportion.
-  const float p_trace = std::min(4.0f * kPi * value, 1.0f);
+  const float p_trace =
+      settings_.lighting.shadow_roulette ? std::min(4.0f * kPi * value, 1.0f) : 1.0f;
   if (!(sampler.rng().next_float() < p_trace)) return;
   const Rgb T = scene_.transmittance({p, light.d}, light.distance, path.medium, sampler.rng());
   path.L += beta * T * light.weight * (value / p_trace);

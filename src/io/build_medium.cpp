@@ -114,7 +114,9 @@ MediumPtr build_heterogeneous(const SceneNode& node, BuildContext& context) {
   const auto albedo = albedo_field(node, context);
   const HenyeyGreenstein phase = phase_of(node);
   return std::visit(
-      [&](const auto& grid) { return make_heterogeneous_medium(grid, scale, albedo, phase); },
+      [&](const auto& grid) {
+        return make_heterogeneous_medium(grid, scale, albedo, phase, context.tracking);
+      },
       density);
 }
 

@@ -20,6 +20,7 @@ namespace brume {
 /// What has been built so far: an object that is referred to twice is built once.
 struct BuildContext {
   Notices& notices;
+  TrackingSettings tracking{};
   std::map<const SceneNode*, std::shared_ptr<const Bsdf>> bsdfs{};
   std::map<const SceneNode*, std::shared_ptr<const Texture>> textures{};
   std::map<const SceneNode*, std::shared_ptr<const Medium>> media{};

@@ -132,10 +132,11 @@ void fail_unsupported(const SceneNode& node, const std::vector<std::string>& sup
 }
 
 LoadedScene load_scene(const std::filesystem::path& path, const Definitions& definitions,
-                       Notices& notices, const std::optional<glm::ivec2>& size) {
+                       Notices& notices, const std::optional<glm::ivec2>& size,
+                       const EstimatorSettings& settings) {
   const SceneDocument document = read_scene_document(path, definitions);
   const SceneNode& root = *document.root;
-  BuildContext context{.notices = notices};
+  BuildContext context{.notices = notices, .tracking = settings.tracking};
   check_references(root);
 
   // Settings first: they are checked at once, while media and meshes may take a while to load.
@@ -143,6 +144,7 @@ LoadedScene load_scene(const std::filesystem::path& path, const Definitions& def
   if (const SceneNode* node = root.only_child("integrator")) {
     integrator = build_integrator(*node, context);
   }
+  integrator.path.lighting = settings.lighting;
   const SceneNode& sensor_node = sensor_of(root, notices);
   const SensorSettings sensor = build_sensor(sensor_node, context, size);
 

@@ -12,6 +12,7 @@
 #include "core/notices.h"
 #include "film/filter.h"
 #include "integrator/path_settings.h"
+#include "io/estimator_settings.h"
 #include "scene/scene.h"
 
 namespace brume {
@@ -40,8 +41,9 @@ struct LoadedScene {
 /// Reads a scene in the Mitsuba 3 XML dialect (docs/scene-format.md) with all files it refers to.
 /// `size` [pixel] replaces the film's, and its crop. Throws an Error that begins with
 /// `path:line:column:` for anything wrong; what was taken another way than written, or has no
-/// effect, becomes a notice.
+/// effect, becomes a notice. `settings` change how the picture is computed.
 LoadedScene load_scene(const std::filesystem::path& path, const Definitions& definitions,
-                       Notices& notices, const std::optional<glm::ivec2>& size = std::nullopt);
+                       Notices& notices, const std::optional<glm::ivec2>& size = std::nullopt,
+                       const EstimatorSettings& settings = {});
 
 }  // namespace brume

@@ -137,8 +137,9 @@ LoadedScene make_volume_scene(const VolumeSceneOptions& options, Notices& notice
                   kSunElevation, kSunAzimuth));
 
   SceneParts parts;
-  parts.world_medium = make_heterogeneous_medium(
-      grid, scale, std::make_shared<ConstantField>(options.albedo), HenyeyGreenstein{options.g});
+  parts.world_medium =
+      make_heterogeneous_medium(grid, scale, std::make_shared<ConstantField>(options.albedo),
+                                HenyeyGreenstein{options.g}, options.settings.tracking);
   parts.environments = {daylight.sky, daylight.sun};
 
   LoadedScene loaded;
@@ -148,6 +149,7 @@ LoadedScene make_volume_scene(const VolumeSceneOptions& options, Notices& notice
   loaded.film = {.size = options.size,
                  .crop_size = options.size,
                  .filter = std::make_shared<GaussianFilter>()};
+  loaded.path.lighting = options.settings.lighting;
   loaded.sample_count = 64;
   return loaded;
 }

@@ -15,6 +15,7 @@ struct VolumeSceneOptions {
   Rgb albedo{0.99f};                     // white and high, like water and ice
   float g = 0.75f;                       // forward, like droplets
   glm::ivec2 size{960, 720};             // [pixel]
+  EstimatorSettings settings{};
 };
 
 /// A camera that frames the volume, +Y up, and the sun and sky of a clear day that light it from

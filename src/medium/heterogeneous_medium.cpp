@@ -66,6 +66,22 @@ bool scatters_nothing(const ColorField& albedo, HenyeyGreenstein phase) {
   return (constant && is_black(*constant)) || part_scattered_straight_on(albedo, phase);
 }
 
+enum class VoxelLookup { kNearest, kStochastic, kTrilinear };
+
+template <class Value>
+VoxelLookup voxel_lookup(const Grid<Value>& grid, const TrackingSettings& settings) {
+  if (grid.interpolation() == Interpolation::kNearest) return VoxelLookup::kNearest;
+  return settings.lookup == TrackingSettings::Lookup::kTrilinear ? VoxelLookup::kTrilinear
+                                                                 : VoxelLookup::kStochastic;
+}
+
+/// Width of the cells of the bounds [voxels].
+template <class Value>
+float cell_size(const Grid<Value>& grid, const TrackingSettings& settings) {
+  if (settings.bounds == TrackingSettings::Bounds::kCells) return 4.0f;
+  return std::ceil(max_component(grid.box().size()));
+}
+
 float largest(float v) {
   return v;
 }
@@ -77,14 +93,17 @@ template <class Value>
 class HeterogeneousMedium final : public Medium {
  public:
   HeterogeneousMedium(std::shared_ptr<const Grid<Value>> density, float density_scale,
-                      std::shared_ptr<const ColorField> albedo, HenyeyGreenstein phase)
+                      std::shared_ptr<const ColorField> albedo, HenyeyGreenstein phase,
+                      const TrackingSettings& settings)
       : density_(std::move(density)),
         density_scale_(density_scale *
                        (1.0f - part_scattered_straight_on(*albedo, phase).value_or(0.0f))),
         only_absorbs_(scatters_nothing(*albedo, phase)),
         albedo_(std::move(albedo)),
         phase_(phase),
-        bounds_(*density_) {
+        bounds_(*density_, cell_size(*density_, settings)),
+        control_scale_(settings.control ? density_scale_ : 0.0f),
+        lookup_(voxel_lookup(*density_, settings)) {
     assert(std::isfinite(bounds_.total().max * density_scale_));
   }
 
@@ -105,7 +124,7 @@ class HeterogeneousMedium final : public Medium {
       const ValueRange range = bounds_.range(cell);
       const float sigma_maj = range.max * density_scale_;
       if (!(sigma_maj > 0.0f)) return true;
-      const float sigma_c = control(range, Value{}) * density_scale_;
+      const float sigma_c = control(range, Value{}) * control_scale_;
       while (true) {
         const float tau_to_end = sigma_maj * (t1 - t);
         if (!(tau < tau_to_end)) {
@@ -142,7 +161,7 @@ class HeterogeneousMedium final : public Medium {
       if (!(range.max > 0.0f)) return true;
       // The control has a closed form; only what is above it is tracked, by ratio tracking.
       const float sigma_maj = range.max * density_scale_;
-      const float sigma_c = control(range, Value{}) * density_scale_;
+      const float sigma_c = control(range, Value{}) * control_scale_;
       if (sigma_c > 0.0f) T *= std::exp(-sigma_c * (t1 - t));
       const float residual = sigma_maj - sigma_c;
       while (survives_roulette(T, rng)) {
@@ -182,11 +201,21 @@ class HeterogeneousMedium final : public Medium {
                    float t, [[maybe_unused]] float sigma_maj, Rng& rng) const {
     const Box3 box = bounds_.cell_box(cell);
     const Vec3 p = glm::clamp(segment.o + t * segment.d, box.min, box.max);
-    const Value sigma_t = density_scale_ * (density_->interpolation() == Interpolation::kNearest
-                                                ? lookup.nearest(p)
-                                                : lookup.stochastic(p, rng));
+    const Value sigma_t = density_scale_ * look_up(lookup, p, rng);
     check_majorant(largest(sigma_t), sigma_maj);
     return sigma_t;
+  }
+
+  Value look_up(GridLookup<Value>& lookup, const Vec3& p, Rng& rng) const {
+    switch (lookup_) {
+      case VoxelLookup::kNearest:
+        return lookup.nearest(p);
+      case VoxelLookup::kTrilinear:
+        return lookup.trilinear(p);
+      case VoxelLookup::kStochastic:
+        break;
+    }
+    return lookup.stochastic(p, rng);
   }
 
   /// Unbiased end of an estimate that has become small; sets T to 0 when it ends.
@@ -208,6 +237,8 @@ class HeterogeneousMedium final : public Medium {
   std::shared_ptr<const ColorField> albedo_;
   HenyeyGreenstein phase_;
   BoundsGrid bounds_;
+  float control_scale_;  // [1/unit] per density; 0 without a control
+  VoxelLookup lookup_;
 };
 
 }  // namespace
@@ -215,17 +246,19 @@ class HeterogeneousMedium final : public Medium {
 std::shared_ptr<const Medium> make_heterogeneous_medium(std::shared_ptr<const Grid<float>> density,
                                                         float density_scale,
                                                         std::shared_ptr<const ColorField> albedo,
-                                                        HenyeyGreenstein phase) {
+                                                        HenyeyGreenstein phase,
+                                                        const TrackingSettings& settings) {
   return std::make_shared<HeterogeneousMedium<float>>(std::move(density), density_scale,
-                                                      std::move(albedo), phase);
+                                                      std::move(albedo), phase, settings);
 }
 
 std::shared_ptr<const Medium> make_heterogeneous_medium(std::shared_ptr<const Grid<Rgb>> density,
                                                         float density_scale,
                                                         std::shared_ptr<const ColorField> albedo,
-                                                        HenyeyGreenstein phase) {
+                                                        HenyeyGreenstein phase,
+                                                        const TrackingSettings& settings) {
   return std::make_shared<HeterogeneousMedium<Rgb>>(std::move(density), density_scale,
-                                                    std::move(albedo), phase);
+                                                    std::move(albedo), phase, settings);
 }
 
 }  // namespace brume

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "medium/medium.h"
+#include "medium/tracking_settings.h"
 #include "volume/field.h"
 #include "volume/grid.h"
 
@@ -19,10 +20,12 @@ namespace brume {
 std::shared_ptr<const Medium> make_heterogeneous_medium(std::shared_ptr<const Grid<float>> density,
                                                         float density_scale,
                                                         std::shared_ptr<const ColorField> albedo,
-                                                        HenyeyGreenstein phase);
+                                                        HenyeyGreenstein phase,
+                                                        const TrackingSettings& settings = {});
 std::shared_ptr<const Medium> make_heterogeneous_medium(std::shared_ptr<const Grid<Rgb>> density,
                                                         float density_scale,
                                                         std::shared_ptr<const ColorField> albedo,
-                                                        HenyeyGreenstein phase);
+                                                        HenyeyGreenstein phase,
+                                                        const TrackingSettings& settings = {});
 
 }  // namespace brume

@@ -45,8 +45,8 @@ ValueRange range_over_voxels(typename Grid<Value>::NanoGrid::AccessorType& acces
 }  // namespace
 
 template <class Value>
-BoundsGrid::BoundsGrid(const Grid<Value>& grid, int cell_size)
-    : box_(grid.box()), cell_size_(float(cell_size)) {
+BoundsGrid::BoundsGrid(const Grid<Value>& grid, float cell_size)
+    : box_(grid.box()), cell_size_(cell_size) {
   const auto cells_along = [&] {
     return glm::max(glm::ivec3(glm::ceil(box_.size() / cell_size_)), glm::ivec3(1));
   };
@@ -73,8 +73,8 @@ BoundsGrid::BoundsGrid(const Grid<Value>& grid, int cell_size)
       }
 }
 
-template BoundsGrid::BoundsGrid(const Grid<float>&, int);
-template BoundsGrid::BoundsGrid(const Grid<Rgb>&, int);
+template BoundsGrid::BoundsGrid(const Grid<float>&, float);
+template BoundsGrid::BoundsGrid(const Grid<Rgb>&, float);
 
 std::optional<IndexSegment> clip_to_grid(const Ray& ray, float t_max, const BoundsGrid& bounds,
                                          const glm::dmat4& index_from_world) {

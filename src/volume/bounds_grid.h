@@ -25,7 +25,7 @@ class BoundsGrid {
  public:
   /// Cells are `cell_size` voxels wide; it is doubled until there are at most `kMaxCells`.
   template <class Value>
-  explicit BoundsGrid(const Grid<Value>& grid, int cell_size = 4);
+  explicit BoundsGrid(const Grid<Value>& grid, float cell_size = 4.0f);
 
   const ValueRange& range(const glm::ivec3& cell) const {
     return ranges_[(std::size_t(cell.z) * resolution_.y + cell.y) * resolution_.x + cell.x];

@@ -70,6 +70,7 @@ TEST_F(RenderCommand, WritesAnExrNamedAfterTheInputInTheCurrentFolder) {
   EXPECT_THAT(picture.channels, ::testing::IsSupersetOf({"R", "G", "B", "A"}));
   EXPECT_EQ(picture.spec.get_int_attribute("brume:max_depth", -7), -1);
   EXPECT_EQ(picture.spec.get_string_attribute("brume:seed"), "0");
+  EXPECT_EQ(picture.spec.get_string_attribute("brume:settings"), "none");
   EXPECT_EQ(picture.spec.get_string_attribute("brume:biased_settings"), "none");
   EXPECT_FALSE(exists("elsewhere/scene.exr"));
 }
@@ -140,6 +141,17 @@ TEST_F(RenderCommand, StatisticsAreCompleteJson) {
   EXPECT_GT(s["relative_rms_error"], 0.0);
   EXPECT_LT(s["relative_rms_error"], 1.0);
   EXPECT_GT(s["relative_rms_error_bound_95"], s["relative_rms_error"]);
+}
+
+TEST_F(RenderCommand, SettingsAreRecordedWhereTheyDifferFromTheDefaults) {
+  const Ended ended = run({"render", "scene.xml", "--spp", "16", "--set", "sampler=independent",
+                           "--set", "bounds=cells", "--json", "s.json"});
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_EQ(read("scene.exr").spec.get_string_attribute("brume:settings"), "sampler=independent");
+  EXPECT_EQ(read_json("s.json")["settings"], nlohmann::json({{"sampler", "independent"}}));
+  EXPECT_EQ(read_json("s.json")["biased_settings"], nlohmann::json::array());
+  EXPECT_EQ(run({"render", "scene.xml", "--spp", "16", "-o", "sobol.exr"}).exit_code, 0);
+  EXPECT_FALSE(same_bits(read("scene.exr"), read("sobol.exr")));
 }
 
 TEST_F(RenderCommand, AnUnknownErrorIsNullInJson) {

@@ -13,11 +13,11 @@ TEST_F(Usage, HelpTellsEveryOptionAndGoesToStdout) {
   EXPECT_EQ(ended.exit_code, 0);
   EXPECT_EQ(ended.err, "");
   for (const char* option :
-       {"INPUT",      "-s,--scene", "-o,--output", "--spp",     "--time",  "--size",
-        "--exposure", "--aov",      "--max-depth", "-D",        "--grid",  "--density-scale",
-        "--albedo",   "--g ",       "--seed",      "--threads", "--quiet", "--json",
-        ".xml",       ".vdb",       ".nvdb",       ".vol",      ".exr",    ".png",
-        ".jpg",       ".hdr",       "-h,--help"})
+       {"INPUT",      "-s,--scene",  "-o,--output", "--spp",     "--time",  "--size",
+        "--exposure", "--aov",       "--max-depth", "-D",        "--grid",  "--density-scale",
+        "--albedo",   "--g ",        "--seed",      "--threads", "--quiet", "--json",
+        "--set",      "near-lights", "textbook",    ".xml",      ".vdb",    ".nvdb",
+        ".vol",       ".exr",        ".png",        ".jpg",      ".hdr",    "-h,--help"})
     EXPECT_THAT(ended.out, HasSubstr(option));
 
   const Ended info = run({"info", "--help"});
@@ -57,6 +57,9 @@ TEST_F(Usage, UnknownNamesAreAnsweredWithTheNearest) {
   expect_refusal({"render", "scene.xml", "--sp", "3"}, 2,
                  "brume: unknown option \"--sp\"; did you mean \"--spp\"?\n"
                  "Try: brume render --help\n");
+  expect_refusal(
+      {"render", "scene.xml", "--set", "lokup=trilinear"}, 2,
+      "brume: --set lokup=trilinear: no setting has this name; did you mean \"lookup\"?\n");
   expect_refusal({"info", "scene.xml", "--scenes", "3"}, 2,
                  "brume: unknown option \"--scenes\"; did you mean \"--scene\"?\n"
                  "Try: brume info --help\n");

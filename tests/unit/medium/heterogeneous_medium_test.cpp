@@ -104,6 +104,35 @@ TEST_P(HeterogeneousLaw, TransmittanceAndFlightsFollowTheOpticalThickness) {
 INSTANTIATE_TEST_SUITE_P(Fields, HeterogeneousLaw,
                          ::testing::Combine(::testing::Range(0, 6), ::testing::Bool()));
 
+TEST(HeterogeneousMedium, EverySettingHasTheSameExpectation) {
+  using Bounds = TrackingSettings::Bounds;
+  using Lookup = TrackingSettings::Lookup;
+  const FieldCase& field = fields()[3];
+  const auto grid = test::make_grid(field.n, field.density, skewed_transform());
+  const Vec3 centre(skewed_transform() * glm::dvec4(0.5, 0.5, 0.5, 1.0));
+  const Vec3 d = glm::normalize(Vec3(-0.3f, 0.8f, 0.4f));
+  const Ray ray{centre - 4.0f * d, d};
+  const double T = std::exp(-0.2 * quadrature(*grid, ray, 4.3f));
+  ASSERT_GT(T, 0.05);
+  ASSERT_LT(T, 0.95);
+  for (const Bounds bounds : {Bounds::kCells, Bounds::kGlobal})
+    for (const Lookup lookup : {Lookup::kStochastic, Lookup::kTrilinear})
+      for (const bool control : {true, false}) {
+        const auto medium =
+            make_heterogeneous_medium(grid, 0.2f, std::make_shared<ConstantField>(Rgb(1.0f)), {},
+                                      {.bounds = bounds, .lookup = lookup, .control = control});
+        test::RunningMean estimate, passed;
+        Rng rng(17);
+        for (int i = 0; i < 100000; ++i) {
+          estimate.add(medium->transmittance(ray, 4.3f, rng).r);
+          Sampler sampler(19, 0, i, true);
+          passed.add(!medium->sample_free_flight(ray, 4.3f, Rgb(1.0f), sampler).scattered);
+        }
+        EXPECT_TRUE(test::agrees(estimate, T, 2e-5));
+        EXPECT_TRUE(test::agrees(passed, T, 2e-5));
+      }
+}
+
 TEST(HeterogeneousMedium, MissesWhatIsOutsideItsBox) {
   const auto grid = test::make_grid({4, 4, 4}, [](int, int, int) { return 1e6f; });
   const auto medium =

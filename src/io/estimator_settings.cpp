@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/estimator_settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "io/nearest_name.h"
+
+namespace brume {
+namespace {
+
+/// Values of a setting by name, the default first.
+template <class T>
+using Choices = std::vector<std::pair<std::string, T>>;
+
+const Choices<bool> kOnOff = {{"on", true}, {"off", false}};
+
+template <class T>
+std::string joined_names(const Choices<T>& choices) {
+  std::string names;
+  for (const auto& [name, value] : choices) names += names.empty() ? name : ", " + name;
+  return names;
+}
+
+/// A setting with the given values; the last one is the textbook's. `Field` refers to it within
+/// EstimatorSettings, const or not.
+template <class T, class Field>
+Setting unbiased_choice(std::string name, Choices<T> choices, std::string meaning, Field field) {
+  return {.name = std::move(name),
+          .values = joined_names(choices),
+          .textbook = choices.back().first,
+          .meaning = std::move(meaning),
+          .biased = false,
+          .value =
+              [choices, field](const EstimatorSettings& settings) {
+                const auto chosen =
+                    std::find_if(choices.begin(), choices.end(),
+                                 [&](const auto& c) { return c.second == field(settings); });
+                return chosen->first;
+              },
+          .assign =
+              [choices, field](EstimatorSettings& settings, const std::string& word) {
+                const auto chosen = std::find_if(choices.begin(), choices.end(),
+                                                 [&](const auto& c) { return c.first == word; });
+                if (chosen == choices.end()) return false;
+                field(settings) = chosen->second;
+                return true;
+              }};
+}
+
+std::vector<Setting> make_table() {
+  using Bounds = TrackingSettings::Bounds;
+  using Lookup = TrackingSettings::Lookup;
+  using Numbers = EstimatorSettings::Numbers;
+  return {
+      unbiased_choice(
+          "bounds", Choices<Bounds>{{"cells", Bounds::kCells}, {"global", Bounds::kGlobal}},
+          "majorants of grids: one for each cell of a few voxels, or one for the whole grid",
+          [](auto& s) -> auto& { return s.tracking.bounds; }),
+      unbiased_choice(
+          "lookup",
+          Choices<Lookup>{{"stochastic", Lookup::kStochastic}, {"trilinear", Lookup::kTrilinear}},
+          "interpolation at collisions: one voxel drawn by its weight, or all eight",
+          [](auto& s) -> auto& { return s.tracking.lookup; }),
+      unbiased_choice(
+          "control", kOnOff, "the minimum of a cell is passed in closed form, without lookups",
+          [](auto& s) -> auto& { return s.tracking.control; }),
+      unbiased_choice(
+          "near-lights", kOnOff, "flights also look for light at their points close to lamps",
+          [](auto& s) -> auto& { return s.lighting.near_lights; }),
+      unbiased_choice(
+          "shadow-roulette", kOnOff,
+          "fewer shadow rays into directions that little light is scattered to",
+          [](auto& s) -> auto& { return s.lighting.shadow_roulette; }),
+      unbiased_choice(
+          "sampler",
+          Choices<Numbers>{{"sobol", Numbers::kSobol}, {"independent", Numbers::kIndependent}},
+          "random numbers: Owen-scrambled Sobol points, or independent ones",
+          [](auto& s) -> auto& { return s.numbers; }),
+  };
+}
+
+/// The setting that "name=value" names.
+const Setting& find_setting(const std::string& assignment) {
+  const std::string name = assignment.substr(0, assignment.find('='));
+  const std::vector<Setting>& table = setting_table();
+  const auto found =
+      std::find_if(table.begin(), table.end(), [&](const Setting& s) { return s.name == name; });
+  if (found != table.end()) return *found;
+  std::vector<std::string> names = {"textbook"};
+  for (const Setting& setting : table) names.push_back(setting.name);
+  throw Error(
+      fmt::format("--set {}: no setting has this name{}", assignment, suggestion(name, names)));
+}
+
+}  // namespace
+
+const std::vector<Setting>& setting_table() {
+  static const std::vector<Setting> table = make_table();
+  return table;
+}
+
+void apply_setting(const std::string& assignment, EstimatorSettings& settings) {
+  if (assignment == "textbook") {
+    for (const Setting& setting : setting_table())
+      if (!setting.textbook.empty()) setting.assign(settings, setting.textbook);
+    return;
+  }
+  const std::size_t equals = assignment.find('=');
+  const Setting& setting = find_setting(assignment);
+  const std::string word = equals == std::string::npos ? "" : assignment.substr(equals + 1);
+  if (!setting.assign(settings, word))
+    throw Error(fmt::format("--set {}: \"{}\" is no value of {}; expected {}", assignment, word,
+                            setting.name, setting.values));
+}
+
+SettingValues changed_settings(const EstimatorSettings& settings) {
+  const EstimatorSettings defaults;
+  SettingValues changed;
+  for (const Setting& setting : setting_table())
+    if (setting.value(settings) != setting.value(defaults))
+      changed.emplace_back(setting.name, setting.value(settings));
+  return changed;
+}
+
+SettingValues biased_settings(const EstimatorSettings& settings) {
+  SettingValues values = changed_settings(settings);
+  std::erase_if(values, [](const auto& v) { return !find_setting(v.first).biased; });
+  return values;
+}
+
+}  // namespace brume

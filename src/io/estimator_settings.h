@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "integrator/path_settings.h"
+#include "medium/tracking_settings.h"
+
+namespace brume {
+
+/// How a picture is computed, as against what is in it: what `--set` changes.
+struct EstimatorSettings {
+  enum class Numbers { kSobol, kIndependent };
+
+  TrackingSettings tracking{};
+  LightingSettings lighting{};
+  Numbers numbers = Numbers::kSobol;
+};
+
+/// A row of the table that help, parsing and metadata read.
+struct Setting {
+  std::string name;
+  std::string values;    // for people: "cells, global" or "a number > 0"
+  std::string textbook;  // value in the textbook configuration; empty: left as it is
+  std::string meaning;
+  bool biased;  // whether another value than the default may change the expected picture
+  std::function<std::string(const EstimatorSettings&)> value;
+  /// Returns false for a word that is no value of the setting.
+  std::function<bool(EstimatorSettings&, const std::string&)> assign;
+};
+
+/// All settings, in the order of help.
+const std::vector<Setting>& setting_table();
+
+/// Applies "name=value", or "textbook" for the textbook's value of every setting. Throws an Error
+/// with the nearest valid name.
+void apply_setting(const std::string& assignment, EstimatorSettings& settings);
+
+/// Name and value of each setting that differs from its default.
+using SettingValues = std::vector<std::pair<std::string, std::string>>;
+SettingValues changed_settings(const EstimatorSettings& settings);
+/// Those of them that may change the expected picture.
+SettingValues biased_settings(const EstimatorSettings& settings);
+
+}  // namespace brume

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/estimator_settings.h"
+
+#include <gmock/gmock.h>
+
+#include "core/error.h"
+
+namespace brume {
+namespace {
+
+using ::testing::IsEmpty;
+using ::testing::UnorderedElementsAre;
+
+std::string refusal(const std::string& assignment) {
+  EstimatorSettings settings;
+  try {
+    apply_setting(assignment, settings);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(EstimatorSettings, EverySettingTakesItsDefaultAndItsTextbookValue) {
+  const EstimatorSettings defaults;
+  EXPECT_THAT(changed_settings(defaults), IsEmpty());
+  for (const Setting& setting : setting_table()) {
+    EstimatorSettings settings;
+    apply_setting(setting.name + "=" + setting.value(defaults), settings);
+    EXPECT_THAT(changed_settings(settings), IsEmpty()) << setting.name;
+    if (setting.textbook.empty()) continue;
+    apply_setting(setting.name + "=" + setting.textbook, settings);
+    EXPECT_EQ(setting.value(settings), setting.textbook);
+  }
+}
+
+TEST(EstimatorSettings, TextbookIsPlainTrackingWithoutBias) {
+  EstimatorSettings settings;
+  apply_setting("textbook", settings);
+  EXPECT_EQ(settings.tracking.bounds, TrackingSettings::Bounds::kGlobal);
+  EXPECT_EQ(settings.tracking.lookup, TrackingSettings::Lookup::kTrilinear);
+  EXPECT_FALSE(settings.tracking.control);
+  EXPECT_FALSE(settings.lighting.near_lights);
+  EXPECT_FALSE(settings.lighting.shadow_roulette);
+  EXPECT_EQ(settings.numbers, EstimatorSettings::Numbers::kIndependent);
+  EXPECT_THAT(biased_settings(settings), IsEmpty());
+}
+
+TEST(EstimatorSettings, ALaterAssignmentReplacesAnEarlierOne) {
+  EstimatorSettings settings;
+  for (const char* assignment : {"textbook", "control=on", "lookup=stochastic", "bounds=cells",
+                                 "near-lights=on", "shadow-roulette=on"})
+    apply_setting(assignment, settings);
+  EXPECT_THAT(changed_settings(settings),
+              UnorderedElementsAre(std::pair("sampler", "independent")));
+}
+
+TEST(EstimatorSettings, UnknownNamesAndValuesAreRefusedWithTheValidOnes) {
+  EXPECT_EQ(refusal("bonds=global"),
+            "--set bonds=global: no setting has this name; did you mean \"bounds\"?");
+  EXPECT_EQ(refusal("textbok"),
+            "--set textbok: no setting has this name; did you mean \"textbook\"?");
+  EXPECT_EQ(refusal("bounds=glob"),
+            "--set bounds=glob: \"glob\" is no value of bounds; expected cells, global");
+  EXPECT_EQ(refusal("bounds"), "--set bounds: \"\" is no value of bounds; expected cells, global");
+}
+
+}  // namespace
+}  // namespace brume
