@@ -153,6 +153,10 @@ void write_image(const std::string& path, const Image& image, const Metadata& me
   }
 }
 
+std::vector<unsigned char> encode_png(const Image& image, const ToneMapping& tone_mapping) {
+  return encode_srgb("picture.png", Format::kPng, image, {}, tone_mapping);
+}
+
 void check_output_path(const std::string& path) {
   format_of(path);
   check_writable(path);

@@ -25,6 +25,9 @@ struct ToneMapping {
 void write_image(const std::string& path, const Image& image, const Metadata& metadata = {},
                  const ToneMapping& tone_mapping = {});
 
+/// The bytes of a .png file of `image`.
+std::vector<unsigned char> encode_png(const Image& image, const ToneMapping& tone_mapping = {});
+
 /// Throws Error when `write_image` could not write `path`: the extension is unknown, or the folder
 /// missing or not writable. To be called before hours of rendering.
 void check_output_path(const std::string& path);

@@ -12,9 +12,9 @@ namespace brume {
 /// the right expectation; of one picture the known variance is taken off.
 struct Reference {
   Image first;
-  Image second;      // independent of `first`, or the same
-  Image variance{};  // of both when they are the same; no pixels: 0
-  double radiance;   // mean over pixels and channels
+  Image second;           // independent of `first`, or the same
+  Image variance{};       // of both when they are the same; no pixels: 0
+  double radiance = 0.0;  // mean over pixels and channels
 };
 
 /// Two independent renders of the same picture.

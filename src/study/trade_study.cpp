@@ -43,11 +43,11 @@ class Runner {
   Study run(const std::vector<Trial>& trials) {
     report("reference");
     subject_.prepare(trials.front());
-    Study study{.complete = true};
+    Study study;
     if (settings_.reference)
       study.reference = *settings_.reference;
-    else
-      render_reference(study);
+    else if (!render_reference(study))
+      return study;
     for (std::size_t i = 0; i < trials.size() && !stopped(); ++i) {
       report(trials[i].name);
       measure(trials[i], seconds_left() / double(trials.size() - i), study);
@@ -77,17 +77,20 @@ class Runner {
     }
   }
 
-  void render_reference(Study& study) {
+  /// Returns false when the study was stopped.
+  bool render_reference(Study& study) {
     const double share = kReferenceShare * seconds_left();
     const double until = seconds_left() - share;
     const double each = seconds_per_sample(share);
     const std::uint32_t spp = whole_replications(0.5 * (seconds_left() - until) / each);
     Image first = subject_.render(spp, kReferenceSeed).picture;
     Image second = subject_.render(spp, kReferenceSeed + 1).picture;
+    if (stopped()) return false;
     study.reference = reference_of_halves(std::move(first), std::move(second));
     study.reference_spp = spp;
     if (!(study.reference.radiance > 0.0))
       throw Error("the picture is black: there is nothing to measure");
+    return true;
   }
 
   void measure(const Trial& trial, double share, Study& study) {
@@ -96,7 +99,10 @@ class Runner {
     const double each = seconds_per_sample(share);
     const double time = seconds_left() - until;
     const std::uint32_t spp = trial.spp.value_or(whole_replications(time / (kSeeds * each)));
-    const int seeds = int(std::min(time / (spp * each), double(kSeeds)));
+    // Everything is compared with the default, whatever it takes.
+    const bool is_default = study.results.empty() && study.skipped.empty();
+    const double fitting = std::min(time / (spp * each), double(kSeeds));
+    const int seeds = std::max(int(fitting), is_default ? kMinSeeds : 0);
     if (seeds < kMinSeeds) {
       study.skipped.push_back(
           fmt::format("{}: {} pictures of {} samples a pixel take {:.1f} s, and {:.1f} s were left "
@@ -106,15 +112,15 @@ class Runner {
     }
     std::vector<Image> pictures;
     double seconds = 0.0;
-    for (int seed = 1; seed <= seeds && !stopped(); ++seed) {
+    for (int seed = 1; seed <= seeds; ++seed) {
       // A machine that has become slower takes fewer pictures, not more time.
       if (seed > kMinSeeds && seconds_left() - until < 0.5 * spp * each) break;
       Subject::Rendered rendered = subject_.render(spp, std::uint64_t(seed));
+      if (stopped()) return;  // the picture may be unfinished
       pictures.push_back(std::move(rendered.picture));
       seconds += rendered.seconds;
       report(trial.name);
     }
-    if (pictures.size() < kMinSeeds) return;  // stopped
     study.results.push_back({.trial = trial,
                              .spp = spp,
                              .seeds = int(pictures.size()),

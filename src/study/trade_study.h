@@ -25,11 +25,11 @@ struct StudySettings {
 };
 
 struct Study {
-  Reference reference;
-  std::optional<std::uint32_t> reference_spp;  // of each half; nothing when it was given
-  std::vector<TrialResult> results;            // in the order of the trials, the default first
-  std::vector<std::string> skipped;            // trials that did not fit, each with the reason
-  bool complete;                               // or stopped early
+  Reference reference{};
+  std::optional<std::uint32_t> reference_spp{};  // of each half; nothing when it was given
+  std::vector<TrialResult> results{};            // in the order of the trials, the default first
+  std::vector<std::string> skipped{};            // trials that did not fit, each with the reason
+  bool complete = false;                         // or stopped early
 };
 
 /// Measures speed against accuracy of each trial; the first, unbiased, is the default and makes
