@@ -24,14 +24,14 @@ std::optional<std::pair<double, std::string>> leading_number(const std::string& 
   return std::pair{value, std::string(end, text.data() + text.size())};
 }
 
-double parse_duration(const std::string& text) {
+double parse_duration(const char* option, const std::string& text) {
   if (const auto number = leading_number(text); number && number->first > 0.0) {
     const auto& [value, unit] = *number;
     if (unit.empty() || unit == "s") return value;
     if (unit == "m" || unit == "min") return 60.0 * value;
     if (unit == "h") return 3600.0 * value;
   }
-  throw CLI::ValidationError("--time",
+  throw CLI::ValidationError(option,
                              fmt::format("\"{}\" is no duration; write 90s, 5m or 1.5h", text));
 }
 
@@ -112,9 +112,8 @@ std::string describe_settings() {
   std::string text =
       "Settings (--set NAME=VALUE; --set textbook: what renderers commonly do, to compare with)\n";
   for (const Setting& setting : setting_table())
-    text +=
-        fmt::format("  {:<16} {} (default {}){}\n{:19}{}\n", setting.name, setting.values,
-                    setting.value(defaults), setting.biased ? "; biased" : "", "", setting.meaning);
+    text += fmt::format("  {:<16} {} (default {})\n{:19}{}\n", setting.name, setting.values,
+                        setting.value(defaults), "", setting.meaning);
   return text;
 }
 
@@ -130,6 +129,31 @@ void add_settings(CLI::App& command, EstimatorSettings& settings) {
       ->allow_extra_args(false)
       ->group("The picture");
   command.footer(describe_settings());
+}
+
+/// Options of a volume that has no scene.
+void add_volume_options(CLI::App& command, RenderOptions& options) {
+  const auto volume = "A bare volume (the scene around it is made to fit and printed)";
+  command.add_option("--grid", options.grid, "Density grid by name, or name[index] of several")
+      ->type_name("NAME")
+      ->group(volume);
+  command
+      .add_option("--density-scale", options.density_scale,
+                  "Extinction per density [1/unit]; default: from the optical thickness")
+      ->check(CLI::PositiveNumber)
+      ->type_name("X")
+      ->group(volume);
+  command
+      .add_option_function<std::string>(
+          "--albedo", [&](const std::string& text) { options.albedo = parse_albedo(text); },
+          "Single-scattering albedo in [0, 1]")
+      ->type_name("R[,G,B]")
+      ->group(volume);
+  command
+      .add_option("--g", options.g, "Asymmetry of Henyey-Greenstein scattering, forward positive")
+      ->check(CLI::Range(-1.0, 1.0))
+      ->type_name("X")
+      ->group(volume);
 }
 
 void add_render(CLI::App& app, RenderOptions& options) {
@@ -149,7 +173,8 @@ void add_render(CLI::App& app, RenderOptions& options) {
       ->group(stop);
   render
       .add_option_function<std::string>(
-          "--time", [&](const std::string& text) { options.seconds = parse_duration(text); },
+          "--time",
+          [&](const std::string& text) { options.seconds = parse_duration("--time", text); },
           "Time to spend, loading and writing included: 90s, 5m, 1.5h")
       ->type_name("DURATION")
       ->group(stop);
@@ -182,27 +207,7 @@ void add_render(CLI::App& app, RenderOptions& options) {
 
   add_settings(render, options.settings);
 
-  const auto volume = "A bare volume (the scene around it is made to fit and printed)";
-  render.add_option("--grid", options.grid, "Density grid by name, or name[index] of several")
-      ->type_name("NAME")
-      ->group(volume);
-  render
-      .add_option("--density-scale", options.density_scale,
-                  "Extinction per density [1/unit]; default: from the optical thickness")
-      ->check(CLI::PositiveNumber)
-      ->type_name("X")
-      ->group(volume);
-  render
-      .add_option_function<std::string>(
-          "--albedo", [&](const std::string& text) { options.albedo = parse_albedo(text); },
-          "Single-scattering albedo in [0, 1]")
-      ->type_name("R[,G,B]")
-      ->group(volume);
-  render
-      .add_option("--g", options.g, "Asymmetry of Henyey-Greenstein scattering, forward positive")
-      ->check(CLI::Range(-1.0, 1.0))
-      ->type_name("X")
-      ->group(volume);
+  add_volume_options(render, options);
 
   const auto run = "The run";
   render.add_option("--seed", options.seed, "Same seed, same bits")->type_name("N")->group(run);
@@ -214,6 +219,40 @@ void add_render(CLI::App& app, RenderOptions& options) {
   render.add_option("--json", options.statistics_path, "Write statistics for programs to FILE")
       ->type_name("FILE")
       ->group(run);
+}
+
+void add_trade(CLI::App& app, TradeOptions& options) {
+  CLI::App& trade = *app.add_subcommand(
+      "trade", "Measure speed against accuracy on a scene: table, report with plots, what to use");
+  add_input(trade, options.render.input, "Scene (.xml) or volume (.vdb, .nvdb, .vol)");
+  trade
+      .add_option_function<std::string>(
+          "--budget",
+          [&](const std::string& text) { options.budget = parse_duration("--budget", text); },
+          "Time to spend on everything: 90s, 5m, 1.5h; default 5m")
+      ->type_name("DURATION");
+  trade
+      .add_option("-o,--output", options.report_path,
+                  "Report to write (.html, one page that needs no other file); .csv and .json of "
+                  "the same name are written beside it")
+      ->type_name("REPORT");
+  trade
+      .add_option("--reference", options.reference_path,
+                  "Picture to measure against, such as one rendered overnight; its size is taken. "
+                  "Default: a third of the time is spent on one")
+      ->type_name("FILE");
+  trade
+      .add_option_function<std::string>(
+          "--size", [&](const std::string& text) { options.render.size = parse_size(text); },
+          "Size of the pictures rendered; default: small enough for the time. Times are given for "
+          "the scene's own")
+      ->type_name("WxH");
+  add_definitions(trade, options.render.definitions);
+  add_volume_options(trade, options.render);
+  trade.add_option("--threads", options.render.threads, "Default: all processors")
+      ->check(CLI::Range(1, 4096))
+      ->type_name("N");
+  trade.add_flag("--quiet", options.render.quiet, "Print no progress");
 }
 
 void add_info(CLI::App& app, InfoOptions& options) {
@@ -258,8 +297,8 @@ int report_mistake(const CLI::App& app, const CLI::ParseError& error) {
 
 }  // namespace
 
-std::variant<RenderOptions, InfoOptions, CompareOptions, Done> parse_command_line(int argc,
-                                                                                  char** argv) {
+std::variant<RenderOptions, InfoOptions, CompareOptions, TradeOptions, Done> parse_command_line(
+    int argc, char** argv) {
   CLI::App app("brume: unbiased renderer for fog, smoke, fire and clouds", "brume");
   app.set_version_flag("--version", std::string("brume ") + kVersion);
   app.require_subcommand(1);
@@ -269,16 +308,19 @@ std::variant<RenderOptions, InfoOptions, CompareOptions, Done> parse_command_lin
       "  brume render fog.xml --spp 256 -o fog.exr -o fog.png\n"
       "  brume render fog.xml --time 90s -D fog_sigma_t=0.5\n"
       "  brume info cloud.vdb\n"
-      "  brume compare fog.exr reference.exr -o error.png\n\n"
+      "  brume compare fog.exr reference.exr -o error.png\n"
+      "  brume trade fog.xml --budget 5m -o fog_trade.html\n\n"
       "Exit codes: 0 done; 1 could not finish; 2 wrong usage or bad input; 130 interrupted, with\n"
       "what was rendered saved.");
 
   RenderOptions render;
   InfoOptions info;
   CompareOptions compare;
+  TradeOptions trade;
   add_render(app, render);
   add_info(app, info);
   add_compare(app, compare);
+  add_trade(app, trade);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked_for) {  // --help and --version
@@ -288,6 +330,7 @@ std::variant<RenderOptions, InfoOptions, CompareOptions, Done> parse_command_lin
   }
   if (app.got_subcommand("render")) return render;
   if (app.got_subcommand("compare")) return compare;
+  if (app.got_subcommand("trade")) return trade;
   return info;
 }
 

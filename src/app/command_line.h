@@ -14,7 +14,7 @@ struct Done {
 };
 
 /// Prints help to stdout and mistakes to stderr.
-std::variant<RenderOptions, InfoOptions, CompareOptions, Done> parse_command_line(int argc,
-                                                                                  char** argv);
+std::variant<RenderOptions, InfoOptions, CompareOptions, TradeOptions, Done> parse_command_line(
+    int argc, char** argv);
 
 }  // namespace brume

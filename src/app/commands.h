@@ -12,5 +12,6 @@ inline constexpr int kExitInterrupted = 130;
 int run_render(const RenderOptions& options);
 int run_info(const InfoOptions& options);
 int run_compare(const CompareOptions& options);
+int run_trade(const TradeOptions& options);
 
 }  // namespace brume

@@ -16,6 +16,8 @@ int run(int argc, char** argv) {
     return brume::run_render(*options);
   if (const auto* options = std::get_if<brume::CompareOptions>(&command))
     return brume::run_compare(*options);
+  if (const auto* options = std::get_if<brume::TradeOptions>(&command))
+    return brume::run_trade(*options);
   return brume::run_info(std::get<brume::InfoOptions>(command));
 }
 

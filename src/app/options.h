@@ -45,6 +45,14 @@ struct CompareOptions {
   std::string json_path{};      // empty: none
 };
 
+/// `brume trade`.
+struct TradeOptions {
+  RenderOptions render{};        // of the input; without outputs and stop rules
+  double budget = 300.0;         // [s] for everything
+  std::string report_path{};     // .html; empty: INPUT's name in the current folder
+  std::string reference_path{};  // empty: one is made
+};
+
 /// `brume info`.
 struct InfoOptions {
   std::string input;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "app/camera_samples.h"
 #include "app/commands.h"
 #include "app/input.h"
 #include "app/statistics_file.h"
@@ -12,7 +13,6 @@
 #include "film/atomic_file.h"
 #include "film/develop.h"
 #include "film/write_image.h"
-#include "integrator/path_integrator.h"
 #include "render/interrupt.h"
 
 namespace brume {
@@ -46,20 +46,6 @@ RenderSettings render_settings(const RenderOptions& options, const LoadedScene& 
   settings.threads = options.threads;
   settings.progress = options.quiet ? ProgressStyle::kQuiet : progress_style_of(stderr);
   return settings;
-}
-
-/// Camera samples of the part of the picture that is rendered.
-SampleFunction sample_function(const PathIntegrator& integrator, const FilmSettings& film,
-                               std::uint64_t seed, bool independent) {
-  return [&integrator, &film, seed, independent](std::uint32_t x, std::uint32_t y,
-                                                 std::uint32_t index) {
-    const Vec2 corner = Vec2(film.crop_offset) + Vec2(float(x), float(y));
-    const std::uint32_t pixel =
-        std::uint32_t(corner.y) * std::uint32_t(film.size.x) + std::uint32_t(corner.x);
-    Sampler sampler(seed, pixel, index, independent);
-    const Vec2 offset = film.filter->sample(sampler.next_2d());
-    return integrator.sample((corner + 0.5f + offset) / Vec2(film.size), sampler);
-  };
 }
 
 /// name=value, or "none".
@@ -131,7 +117,7 @@ int run_render(const RenderOptions& options) {
   const double load_seconds = seconds_since(begin);
   const bool independent = options.settings.numbers == EstimatorSettings::Numbers::kIndependent;
   const RenderResult result =
-      render(sample_function(integrator, loaded.film, options.seed, independent),
+      render(camera_samples(integrator, loaded.film, options.seed, independent),
              render_settings(options, loaded, load_seconds, outputs.size()), film);
 
   const RenderStatistics statistics{.input = options.input,

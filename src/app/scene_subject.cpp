@@ -34,7 +34,7 @@ void SceneSubject::prepare(const Trial& trial) {
   RenderOptions options = options_;
   apply_trial(trial, options);
   // Media are built with the settings of tracking; the others need no loading.
-  if (!loaded_ || !(options.settings.tracking == current_.settings.tracking)) {
+  if (!loaded_ || !(media_settings(options.settings) == media_settings(current_.settings))) {
     loaded_.reset();  // two scenes need not fit into memory
     integrator_.reset();
     Notices ignored;  // said when the scene was loaded first
@@ -43,6 +43,7 @@ void SceneSubject::prepare(const Trial& trial) {
   current_ = options;
   PathSettings path = loaded_->path;
   path.lighting = options.settings.lighting;
+  path.approximations = options.settings.approximations;
   if (options.max_depth) path.max_depth = *options.max_depth;
   integrator_ = std::make_unique<const PathIntegrator>(*loaded_->scene, *loaded_->camera, path);
 }

@@ -48,14 +48,15 @@ CameraSample PathIntegrator::sample(const Vec2& film, Sampler& sampler) const {
     if (hit) add_emission(path, *hit, sampler);
     if (!hit && !(path.t_max < kInfinity)) path.medium = scene_.medium_to_infinity(path.medium);
     if (path.medium != nullptr) {
+      const Medium& around = medium_around(path);
       const Segment segment{
           .ray = path.ray,
           .t_end = hit ? hit->t : path.t_max,
           .beta = path.beta,
-          .medium = path.medium,
+          .medium = &around,
           .seeks_lights = settings_.lighting.near_lights && path.depth < kDepthThatSeeksLights};
       const FreeFlight flight =
-          path.medium->sample_free_flight(path.ray, segment.t_end, path.beta, sampler);
+          around.sample_free_flight(path.ray, segment.t_end, path.beta, sampler);
       path.beta *= flight.weight;
       if (may_scatter(path)) light_segment(path, segment, flight, sampler);
       if (is_black(path.beta)) break;
@@ -85,6 +86,20 @@ CameraSample PathIntegrator::sample(const Vec2& film, Sampler& sampler) const {
 
 bool PathIntegrator::may_scatter(const Path& path) const {
   return settings_.max_depth < 0 || path.depth + 1 < settings_.max_depth;
+}
+
+bool PathIntegrator::is_diffuse(int scatterings) const {
+  return scatterings >= settings_.approximations.similarity;
+}
+
+const Medium& PathIntegrator::medium_around(const Path& path) const {
+  return is_diffuse(path.depth) ? path.medium->similar() : *path.medium;
+}
+
+void PathIntegrator::gather(Path& path, const Rgb& L, int scatterings) const {
+  const float limit = settings_.approximations.clamp;
+  const float largest = max_component(L);
+  path.L += scatterings > 1 && largest > limit ? L * (limit / largest) : L;
 }
 
 void PathIntegrator::light_segment(Path& path, const Segment& segment, const FreeFlight& flight,
@@ -127,8 +142,9 @@ void PathIntegrator::connect(Path& path, const Vec3& p, const LightSample& light
   const float p_trace =
       settings_.lighting.shadow_roulette ? std::min(4.0f * kPi * value, 1.0f) : 1.0f;
   if (!(sampler.rng().next_float() < p_trace)) return;
-  const Rgb T = scene_.transmittance({p, light.d}, light.distance, path.medium, sampler.rng());
-  path.L += beta * T * light.weight * (value / p_trace);
+  const Rgb T = scene_.transmittance({p, light.d}, light.distance, path.medium, sampler.rng(),
+                                     is_diffuse(path.depth + 1));
+  gather(path, beta * T * light.weight * (value / p_trace), path.depth + 1);
 }
 
 bool PathIntegrator::scatter_in_medium(Path& path, const Segment& segment, const FreeFlight& flight,
@@ -170,8 +186,9 @@ bool PathIntegrator::interact_with_surface(Path& path, const Hit& hit, Sampler& 
         float distance = light->distance;
         const Ray shadow = hit.leave_toward(light->d, distance);
         const Medium* medium = scene_.medium_toward(hit, -path.ray.d, light->d, path.medium);
-        const Rgb T = scene_.transmittance(shadow, distance, medium, sampler.rng());
-        path.L += path.beta * value * T * light->weight * weight;
+        const Rgb T = scene_.transmittance(shadow, distance, medium, sampler.rng(),
+                                           is_diffuse(path.depth + 1));
+        gather(path, path.beta * value * T * light->weight * weight, path.depth + 1);
       }
     }
   }
@@ -213,19 +230,22 @@ void PathIntegrator::add_emission(Path& path, const Hit& hit, Sampler& sampler) 
   const auto emission = scene_.emission(path.vertex, hit, path.ray.d);
   if (!emission) return;
   // The light that crosses the medium, rather than the chance that the path does.
-  const Rgb T = path.medium == nullptr ? Rgb{1.0f}
-                                       : path.medium->transmittance(path.ray, hit.t, sampler.rng());
+  const Rgb T = path.medium == nullptr
+                    ? Rgb{1.0f}
+                    : medium_around(path).transmittance(path.ray, hit.t, sampler.rng());
   const float p_choice = scene_.lights().probability(path.vertex, emission->light);
   const float pdf_light = emission->pdf * light_choice(path, emission->light, p_choice);
-  path.L += path.beta * T * emission->L * power_heuristic(path.pdf_dir, pdf_light);
+  gather(path, path.beta * T * emission->L * power_heuristic(path.pdf_dir, pdf_light), path.depth);
 }
 
 void PathIntegrator::add_environment(Path& path) const {
   const LightSet& lights = scene_.lights();
   const float pdf_light =
       lights.environment_pdf(path.vertex, path.ray.d) * light_choice(path, lights.size(), 1.0f);
-  path.L += path.beta * lights.environment_radiance(path.ray.d) *
-            power_heuristic(path.pdf_dir, pdf_light);
+  gather(path,
+         path.beta * lights.environment_radiance(path.ray.d) *
+             power_heuristic(path.pdf_dir, pdf_light),
+         path.depth);
 }
 
 float PathIntegrator::light_choice(const Path& path, std::size_t light, float p_choice) const {

@@ -37,6 +37,12 @@ class PathIntegrator {
   bool survives_roulette(Path& path, Sampler& sampler) const;
 
   bool may_scatter(const Path& path) const;
+  /// Whether light that has scattered so often is handed to the similar media.
+  bool is_diffuse(int scatterings) const;
+  /// The medium around the path, which must not be in vacuum, as its light sees it.
+  const Medium& medium_around(const Path& path) const;
+  /// Adds light that has scattered so often on its way.
+  void gather(Path& path, const Rgb& L, int scatterings) const;
   void add_emission(Path& path, const Hit& hit, Sampler& sampler) const;
   void add_environment(Path& path) const;
   float light_choice(const Path& path, std::size_t light, float p_choice) const;

@@ -5,6 +5,7 @@
 #include "io/scene_volume.h"
 #include "medium/heterogeneous_medium.h"
 #include "medium/homogeneous_medium.h"
+#include "medium/similar_medium.h"
 
 namespace brume {
 namespace {
@@ -85,7 +86,13 @@ MediumPtr build_homogeneous(const SceneNode& node, BuildContext& context) {
     node.fail(fmt::format("sigma_t times scale of {} is beyond floating point", node.label()));
   }
   accept_sampling_hints(node, context);
-  return std::make_shared<HomogeneousMedium>(sigma_t, c.albedo, phase_of(node));
+  const HenyeyGreenstein phase = phase_of(node);
+  auto medium = std::make_shared<HomogeneousMedium>(sigma_t, c.albedo, phase);
+  if (!context.tracking.similar_media) return medium;
+  const SimilarCoefficients similar = similar_coefficients(c.albedo, phase.g);
+  return make_similar_medium(std::move(medium), std::make_shared<HomogeneousMedium>(
+                                                    sigma_t * similar.extinction_scale,
+                                                    similar.albedo, HenyeyGreenstein{.g = 0.0f}));
 }
 
 std::shared_ptr<const ColorField> albedo_field(const SceneNode& node, BuildContext& context) {

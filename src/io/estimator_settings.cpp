@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <limits>
 
 #include "core/error.h"
 #include "io/nearest_name.h"
@@ -24,15 +26,14 @@ std::string joined_names(const Choices<T>& choices) {
   return names;
 }
 
-/// A setting with the given values; the last one is the textbook's. `Field` refers to it within
-/// EstimatorSettings, const or not.
+/// A setting without bias with the given values; the last one is the textbook's. `Field` refers to
+/// it within EstimatorSettings, const or not.
 template <class T, class Field>
 Setting unbiased_choice(std::string name, Choices<T> choices, std::string meaning, Field field) {
   return {.name = std::move(name),
           .values = joined_names(choices),
           .textbook = choices.back().first,
           .meaning = std::move(meaning),
-          .biased = false,
           .value =
               [choices, field](const EstimatorSettings& settings) {
                 const auto chosen =
@@ -40,6 +41,7 @@ Setting unbiased_choice(std::string name, Choices<T> choices, std::string meanin
                                  [&](const auto& c) { return c.second == field(settings); });
                 return chosen->first;
               },
+          .is_biased = [](const EstimatorSettings&) { return false; },
           .assign =
               [choices, field](EstimatorSettings& settings, const std::string& word) {
                 const auto chosen = std::find_if(choices.begin(), choices.end(),
@@ -50,20 +52,72 @@ Setting unbiased_choice(std::string name, Choices<T> choices, std::string meanin
               }};
 }
 
+/// `setting` with one more value, which is biased.
+template <class T, class Field>
+Setting with_biased_value(Setting setting, const std::string& word, T value, Field field) {
+  const auto is_this = [field, value](const EstimatorSettings& s) { return field(s) == value; };
+  setting.values += ", " + word + " (biased)";
+  setting.value = [=, name = setting.value](const EstimatorSettings& s) {
+    return is_this(s) ? word : name(s);
+  };
+  setting.is_biased = is_this;
+  setting.assign = [=, assign = setting.assign](EstimatorSettings& s, const std::string& given) {
+    if (given != word) return assign(s, given);
+    field(s) = value;
+    return true;
+  };
+  return setting;
+}
+
+/// A setting that is off or a number of `T` in [least, most], and then biased.
+template <class T, class Field>
+Setting biased_number(std::string name, std::string unit, std::string meaning, T off, T least,
+                      T most, Field field) {
+  return {.name = std::move(name),
+          .values = fmt::format("off, {} (biased)", unit),
+          .textbook = {},
+          .meaning = std::move(meaning),
+          .value =
+              [off, field](const EstimatorSettings& s) {
+                return field(s) == off ? std::string("off") : fmt::format("{}", field(s));
+              },
+          .is_biased = [off, field](const EstimatorSettings& s) { return field(s) != off; },
+          .assign =
+              [off, least, most, field](EstimatorSettings& s, const std::string& word) {
+                T value = off;
+                const char* end = word.data() + word.size();
+                const auto [rest, error] = std::from_chars(word.data(), end, value);
+                const bool is_number = error == std::errc{} && rest == end;
+                if (word == "off")
+                  value = off;
+                else if (!is_number || !(value >= least && value <= most))
+                  return false;
+                field(s) = value;
+                return true;
+              }};
+}
+
 std::vector<Setting> make_table() {
   using Bounds = TrackingSettings::Bounds;
   using Lookup = TrackingSettings::Lookup;
   using Numbers = EstimatorSettings::Numbers;
+  const auto lookup = [](auto& s) -> auto& {
+    return s.tracking.lookup;
+  };
+  constexpr float kLargest = std::numeric_limits<float>::max();
   return {
       unbiased_choice(
           "bounds", Choices<Bounds>{{"cells", Bounds::kCells}, {"global", Bounds::kGlobal}},
           "majorants of grids: one for each cell of a few voxels, or one for the whole grid",
           [](auto& s) -> auto& { return s.tracking.bounds; }),
-      unbiased_choice(
-          "lookup",
-          Choices<Lookup>{{"stochastic", Lookup::kStochastic}, {"trilinear", Lookup::kTrilinear}},
-          "interpolation at collisions: one voxel drawn by its weight, or all eight",
-          [](auto& s) -> auto& { return s.tracking.lookup; }),
+      with_biased_value(
+          unbiased_choice("lookup",
+                          Choices<Lookup>{{"stochastic", Lookup::kStochastic},
+                                          {"trilinear", Lookup::kTrilinear}},
+                          "interpolation at collisions: one voxel drawn by its weight, all eight, "
+                          "or none",
+                          lookup),
+          "nearest", Lookup::kNearest, lookup),
       unbiased_choice(
           "control", kOnOff, "the minimum of a cell is passed in closed form, without lookups",
           [](auto& s) -> auto& { return s.tracking.control; }),
@@ -79,6 +133,20 @@ std::vector<Setting> make_table() {
           Choices<Numbers>{{"sobol", Numbers::kSobol}, {"independent", Numbers::kIndependent}},
           "random numbers: Owen-scrambled Sobol points, or independent ones",
           [](auto& s) -> auto& { return s.numbers; }),
+      biased_number(
+          "march", "a number of voxels from 0.01",
+          "grids are crossed in steps of this length instead of by null collisions", 0.0f, 0.01f,
+          kLargest, [](auto& s) -> auto& { return s.tracking.march_step; }),
+      biased_number(
+          "similarity", "a number of scatterings from 1",
+          "light that has scattered so often sees isotropic media that spread it as far",
+          Approximations{}.similarity, 1, 1'000'000'000,
+          [](auto& s) -> auto& { return s.approximations.similarity; }),
+      biased_number(
+          "clamp", "a radiance > 0",
+          "light that scattered more than once adds no more than this at a time",
+          Approximations{}.clamp, std::numeric_limits<float>::min(), kLargest,
+          [](auto& s) -> auto& { return s.approximations.clamp; }),
   };
 }
 
@@ -100,6 +168,12 @@ const Setting& find_setting(const std::string& assignment) {
 const std::vector<Setting>& setting_table() {
   static const std::vector<Setting> table = make_table();
   return table;
+}
+
+TrackingSettings media_settings(const EstimatorSettings& settings) {
+  TrackingSettings tracking = settings.tracking;
+  tracking.similar_media = settings.approximations.similarity != Approximations{}.similarity;
+  return tracking;
 }
 
 void apply_setting(const std::string& assignment, EstimatorSettings& settings) {
@@ -127,7 +201,7 @@ SettingValues changed_settings(const EstimatorSettings& settings) {
 
 SettingValues biased_settings(const EstimatorSettings& settings) {
   SettingValues values = changed_settings(settings);
-  std::erase_if(values, [](const auto& v) { return !find_setting(v.first).biased; });
+  std::erase_if(values, [&](const auto& v) { return !find_setting(v.first).is_biased(settings); });
   return values;
 }
 

@@ -17,17 +17,22 @@ struct EstimatorSettings {
 
   TrackingSettings tracking{};
   LightingSettings lighting{};
+  Approximations approximations{};
   Numbers numbers = Numbers::kSobol;
 };
+
+/// What media are built with.
+TrackingSettings media_settings(const EstimatorSettings& settings);
 
 /// A row of the table that help, parsing and metadata read.
 struct Setting {
   std::string name;
-  std::string values;    // for people: "cells, global" or "a number > 0"
+  std::string values;    // for people: "cells, global" or "off, a number > 0 (biased)"
   std::string textbook;  // value in the textbook configuration; empty: left as it is
   std::string meaning;
-  bool biased;  // whether another value than the default may change the expected picture
   std::function<std::string(const EstimatorSettings&)> value;
+  /// Whether its value may change the expected picture.
+  std::function<bool(const EstimatorSettings&)> is_biased;
   /// Returns false for a word that is no value of the setting.
   std::function<bool(EstimatorSettings&, const std::string&)> assign;
 };

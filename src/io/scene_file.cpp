@@ -136,7 +136,7 @@ LoadedScene load_scene(const std::filesystem::path& path, const Definitions& def
                        const EstimatorSettings& settings) {
   const SceneDocument document = read_scene_document(path, definitions);
   const SceneNode& root = *document.root;
-  BuildContext context{.notices = notices, .tracking = settings.tracking};
+  BuildContext context{.notices = notices, .tracking = media_settings(settings)};
   check_references(root);
 
   // Settings first: they are checked at once, while media and meshes may take a while to load.
@@ -145,6 +145,7 @@ LoadedScene load_scene(const std::filesystem::path& path, const Definitions& def
     integrator = build_integrator(*node, context);
   }
   integrator.path.lighting = settings.lighting;
+  integrator.path.approximations = settings.approximations;
   const SceneNode& sensor_node = sensor_of(root, notices);
   const SensorSettings sensor = build_sensor(sensor_node, context, size);
 

@@ -139,7 +139,7 @@ LoadedScene make_volume_scene(const VolumeSceneOptions& options, Notices& notice
   SceneParts parts;
   parts.world_medium =
       make_heterogeneous_medium(grid, scale, std::make_shared<ConstantField>(options.albedo),
-                                HenyeyGreenstein{options.g}, options.settings.tracking);
+                                HenyeyGreenstein{options.g}, media_settings(options.settings));
   parts.environments = {daylight.sky, daylight.sun};
 
   LoadedScene loaded;
@@ -150,6 +150,7 @@ LoadedScene make_volume_scene(const VolumeSceneOptions& options, Notices& notice
                  .crop_size = options.size,
                  .filter = std::make_shared<GaussianFilter>()};
   loaded.path.lighting = options.settings.lighting;
+  loaded.path.approximations = options.settings.approximations;
   loaded.sample_count = 64;
   return loaded;
 }

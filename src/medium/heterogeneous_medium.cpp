@@ -9,6 +9,8 @@
 #include <type_traits>
 
 #include "medium/majorant_check.h"
+#include "medium/marched_medium.h"
+#include "medium/similar_medium.h"
 #include "volume/bounds_grid.h"
 
 namespace brume {
@@ -70,7 +72,9 @@ enum class VoxelLookup { kNearest, kStochastic, kTrilinear };
 
 template <class Value>
 VoxelLookup voxel_lookup(const Grid<Value>& grid, const TrackingSettings& settings) {
-  if (grid.interpolation() == Interpolation::kNearest) return VoxelLookup::kNearest;
+  if (grid.interpolation() == Interpolation::kNearest ||
+      settings.lookup == TrackingSettings::Lookup::kNearest)
+    return VoxelLookup::kNearest;
   return settings.lookup == TrackingSettings::Lookup::kTrilinear ? VoxelLookup::kTrilinear
                                                                  : VoxelLookup::kStochastic;
 }
@@ -241,6 +245,36 @@ class HeterogeneousMedium final : public Medium {
   VoxelLookup lookup_;
 };
 
+template <class Value>
+std::shared_ptr<const Medium> make(const std::shared_ptr<const Grid<Value>>& density,
+                                   float density_scale,
+                                   const std::shared_ptr<const ColorField>& albedo,
+                                   HenyeyGreenstein phase, const TrackingSettings& settings) {
+  if (settings.march_step > 0.0f)
+    return make_marched_medium(density, density_scale, albedo, phase, settings.march_step);
+  return std::make_shared<HeterogeneousMedium<Value>>(density, density_scale, albedo, phase,
+                                                      settings);
+}
+
+/// With the medium that is similar to it, where one is asked for. A grid of scalars or colours
+/// times a constant cannot hold one whose extinction follows the colour or place of the albedo.
+template <class Value>
+std::shared_ptr<const Medium> make_with_similar(std::shared_ptr<const Grid<Value>> density,
+                                                float density_scale,
+                                                std::shared_ptr<const ColorField> albedo,
+                                                HenyeyGreenstein phase,
+                                                const TrackingSettings& settings) {
+  auto medium = make(density, density_scale, albedo, phase, settings);
+  const std::optional<Rgb> constant = albedo->constant();
+  if (!settings.similar_media || !constant || !is_grey(*constant)) return medium;
+  const SimilarCoefficients similar = similar_coefficients(*constant, phase.g);
+  return make_similar_medium(
+      std::move(medium),
+      make(density, density_scale * similar.extinction_scale.r,
+           std::shared_ptr<const ColorField>(std::make_shared<ConstantField>(similar.albedo)),
+           HenyeyGreenstein{.g = 0.0f}, settings));
+}
+
 }  // namespace
 
 std::shared_ptr<const Medium> make_heterogeneous_medium(std::shared_ptr<const Grid<float>> density,
@@ -248,8 +282,7 @@ std::shared_ptr<const Medium> make_heterogeneous_medium(std::shared_ptr<const Gr
                                                         std::shared_ptr<const ColorField> albedo,
                                                         HenyeyGreenstein phase,
                                                         const TrackingSettings& settings) {
-  return std::make_shared<HeterogeneousMedium<float>>(std::move(density), density_scale,
-                                                      std::move(albedo), phase, settings);
+  return make_with_similar(std::move(density), density_scale, std::move(albedo), phase, settings);
 }
 
 std::shared_ptr<const Medium> make_heterogeneous_medium(std::shared_ptr<const Grid<Rgb>> density,
@@ -257,8 +290,7 @@ std::shared_ptr<const Medium> make_heterogeneous_medium(std::shared_ptr<const Gr
                                                         std::shared_ptr<const ColorField> albedo,
                                                         HenyeyGreenstein phase,
                                                         const TrackingSettings& settings) {
-  return std::make_shared<HeterogeneousMedium<Rgb>>(std::move(density), density_scale,
-                                                    std::move(albedo), phase, settings);
+  return make_with_similar(std::move(density), density_scale, std::move(albedo), phase, settings);
 }
 
 }  // namespace brume

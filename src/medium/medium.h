@@ -56,6 +56,10 @@ class Medium {
     return std::nullopt;
   }
 
+  /// The medium that stands for this one where light has scattered so often that only its diffusion
+  /// counts; the medium itself where none was built.
+  virtual const Medium& similar() const { return *this; }
+
   virtual MediumSummary summary() const = 0;
 };
 

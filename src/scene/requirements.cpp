@@ -60,7 +60,7 @@ std::vector<Requirement> requirements_of(const SceneParts& parts) {
   for (const Medium* medium : media) {
     const MediumSummary summary = medium->summary();
     list.push_back({fmt::format("medium, {:.1f} MB", 1e-6 * double(summary.memory_bytes)), true,
-                    summary.description});
+                    summary.description, summary.memory_bytes});
   }
   return list;
 }

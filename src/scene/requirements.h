@@ -13,6 +13,7 @@ struct Requirement {
   std::string machinery;
   bool required;
   std::string reason;
+  std::size_t memory_bytes = 0;  // of volume data and bounds
 };
 
 /// What rendering the scene takes: only that is set up and paid for.

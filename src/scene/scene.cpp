@@ -170,11 +170,15 @@ const Medium* Scene::medium_beside(const Vec3& from, const Medium* medium, const
   return medium;
 }
 
-Rgb Scene::transmittance(const Ray& ray, float distance, const Medium* medium, Rng& rng) const {
+Rgb Scene::transmittance(const Ray& ray, float distance, const Medium* medium, Rng& rng,
+                         bool similar) const {
+  const auto crossing = [&](const Ray& part, float length) {
+    return (similar ? medium->similar() : *medium).transmittance(part, length, rng);
+  };
   if (!passes_straight_) {
     if (queries_ && queries_->is_occluded(ray, distance)) return Rgb{0.0f};
     if (!(distance < kInfinity)) medium = medium_to_infinity(medium);
-    return medium == nullptr ? Rgb{1.0f} : medium->transmittance(ray, distance, rng);
+    return medium == nullptr ? Rgb{1.0f} : crossing(ray, distance);
   }
 
   Rgb T{1.0f};
@@ -188,7 +192,7 @@ Rgb Scene::transmittance(const Ray& ray, float distance, const Medium* medium, R
       if (is_black(passing)) return passing;
     }
     if (!hit && !(distance < kInfinity)) medium = medium_to_infinity(medium);
-    if (medium != nullptr) T *= medium->transmittance(segment, hit ? hit->t : distance, rng);
+    if (medium != nullptr) T *= crossing(segment, hit ? hit->t : distance);
     if (!hit || is_black(T)) return T;
     T *= passing;
     medium = medium_across(*hit, segment.d, medium);

@@ -59,8 +59,10 @@ class Scene {
   const Medium* medium_beside(const Vec3& from, const Medium* medium, const Vec3& to) const;
 
   /// Unbiased estimate of the fraction of light that crosses `distance` along `ray` from within
-  /// `medium`: through media and through surfaces that let light pass straight.
-  Rgb transmittance(const Ray& ray, float distance, const Medium* medium, Rng& rng) const;
+  /// `medium`: through media and through surfaces that let light pass straight. `similar` takes
+  /// `Medium::similar` of each medium.
+  Rgb transmittance(const Ray& ray, float distance, const Medium* medium, Rng& rng,
+                    bool similar = false) const;
 
   /// Emission of the surface at `hit` toward the origin of a ray in direction `d`; nothing when the
   /// surface emits nothing that way.

@@ -30,7 +30,7 @@ TEST_F(Usage, HelpOfTheProgramTellsCommandsAndExitCodes) {
   const Ended ended = run({"--help"});
   EXPECT_EQ(ended.exit_code, 0);
   EXPECT_EQ(ended.err, "");
-  for (const char* word : {"render", "info", "compare", "--version", "130"})
+  for (const char* word : {"render", "info", "compare", "trade", "--version", "130"})
     EXPECT_THAT(ended.out, HasSubstr(word));
 }
 
@@ -41,7 +41,7 @@ TEST_F(Usage, VersionGoesToStdout) {
 }
 
 TEST_F(Usage, NothingSaidIsAMistake) {
-  expect_refusal({}, 2, "brume: a command is needed: render, info, compare\nTry: brume --help\n");
+  expect_refusal({}, 2, "brume: a command is needed: render, info, compare, trade\nTry: brume --help\n");
   expect_refusal({"render"}, 2, "brume: INPUT is required\nTry: brume render --help\n");
 }
 
@@ -49,7 +49,7 @@ TEST_F(Usage, UnknownNamesAreAnsweredWithTheNearest) {
   expect_refusal({"rendr", "scene.xml"}, 2,
                  "brume: unknown command \"rendr\"; did you mean \"render\"?\nTry: brume --help\n");
   expect_refusal({"paint", "scene.xml"}, 2,
-                 "brume: unknown command \"paint\"; expected one of render, info, compare\n"
+                 "brume: unknown command \"paint\"; expected one of render, info, compare, trade\n"
                  "Try: brume --help\n");
   expect_refusal({"--versoin"}, 2,
                  "brume: unknown option \"--versoin\"; did you mean \"--version\"?\n"

@@ -23,9 +23,10 @@ class TestScene {
  public:
   /// `write_files` puts what the scene refers to into the scene's folder.
   explicit TestScene(const std::string& xml,
-                     const std::function<void(const TemporaryFolder&)>& write_files = {}) {
+                     const std::function<void(const TemporaryFolder&)>& write_files = {},
+                     const EstimatorSettings& settings = {}) {
     if (write_files) write_files(folder_);
-    loaded_ = load_scene(folder_.write("scene.xml", xml), {}, notices_);
+    loaded_ = load_scene(folder_.write("scene.xml", xml), {}, notices_, std::nullopt, settings);
   }
 
   const LoadedScene& loaded() const { return loaded_; }

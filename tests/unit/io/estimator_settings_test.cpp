@@ -46,6 +46,23 @@ TEST(EstimatorSettings, TextbookIsPlainTrackingWithoutBias) {
   EXPECT_THAT(biased_settings(settings), IsEmpty());
 }
 
+TEST(EstimatorSettings, BiasIsDeclaredByValue) {
+  for (const auto& [assignment, value] :
+       {std::pair("lookup=nearest", "nearest"), std::pair("march=0.5", "0.5"),
+        std::pair("similarity=16", "16"), std::pair("clamp=2.5", "2.5")}) {
+    EstimatorSettings settings;
+    apply_setting(assignment, settings);
+    const std::string text = assignment;
+    const SettingValues expected = {{text.substr(0, text.find('=')), value}};
+    EXPECT_EQ(changed_settings(settings), expected);
+    EXPECT_EQ(biased_settings(settings), expected);
+    apply_setting(
+        expected.front().first == "lookup" ? "lookup=trilinear" : expected.front().first + "=off",
+        settings);
+    EXPECT_THAT(biased_settings(settings), IsEmpty());
+  }
+}
+
 TEST(EstimatorSettings, ALaterAssignmentReplacesAnEarlierOne) {
   EstimatorSettings settings;
   for (const char* assignment : {"textbook", "control=on", "lookup=stochastic", "bounds=cells",
@@ -62,6 +79,10 @@ TEST(EstimatorSettings, UnknownNamesAndValuesAreRefusedWithTheValidOnes) {
             "--set textbok: no setting has this name; did you mean \"textbook\"?");
   EXPECT_EQ(refusal("bounds=glob"),
             "--set bounds=glob: \"glob\" is no value of bounds; expected cells, global");
+  for (const char* number : {"0", "-1", "nan", "1x", ""})
+    EXPECT_EQ(refusal(std::string("march=") + number),
+              std::string("--set march=") + number + ": \"" + number +
+                  "\" is no value of march; expected off, a number of voxels from 0.01 (biased)");
   EXPECT_EQ(refusal("bounds"), "--set bounds: \"\" is no value of bounds; expected cells, global");
 }
 
