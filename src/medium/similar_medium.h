@@ -9,7 +9,7 @@ namespace brume {
 
 /// Coefficients under which isotropic scattering spreads light, after many scatterings, as
 /// scattering with mean cosine g does: sigma_s' = (1 - g) sigma_s with sigma_a unchanged
-/// (similarity relation, van de Hulst 1980, section 14.1).
+/// (similarity relation, Hulst 1980, section 14.1).
 struct SimilarCoefficients {
   Rgb extinction_scale;  // sigma_t' / sigma_t
   Rgb albedo;            // sigma_s' / sigma_t'

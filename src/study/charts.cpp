@@ -5,6 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <utility>
+#include <vector>
 
 #include "film/srgb.h"
 #include "study/colour_scale.h"
@@ -21,6 +25,12 @@ constexpr const char* kInk = "#1a1a1a";
 constexpr const char* kGrid = "#dddddd";
 constexpr const char* kUnbiased = "#0b5394";
 constexpr const char* kBiased = "#d9822b";
+
+/// Times that people know, about three to a power of ten.
+constexpr std::pair<double, const char*> kTimeTicks[] = {
+    {1e-3, "1 ms"},    {1e-2, "10 ms"},    {1e-1, "0.1 s"},      {1.0, "1 s"},
+    {10.0, "10 s"},    {60.0, "1 min"},    {600.0, "10 min"},    {3600.0, "1 h"},
+    {36000.0, "10 h"}, {86400.0, "1 day"}, {864000.0, "10 days"}};
 
 constexpr double kWidth = 960.0;  // of the picture, in its own units
 constexpr double kLowestError = 1e-5, kHighestError = 10.0;
@@ -49,6 +59,23 @@ std::string marker(double x, double y, std::size_t number, bool biased) {
   return shape + fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="middle" font-size="11" )"
                              R"(fill="{}">{}</text>)",
                              x, y + 4.0, kInk, number);
+}
+
+/// A place for a marker at `point`, or near it where markers already stand.
+glm::dvec2 free_place(const glm::dvec2& point, const std::vector<glm::dvec2>& taken) {
+  constexpr double kDistance = 23.0;
+  const auto is_free = [&](const glm::dvec2& place) {
+    return std::all_of(taken.begin(), taken.end(), [&](const glm::dvec2& other) {
+      return glm::distance(place, other) >= kDistance;
+    });
+  };
+  // Rings of growing size; the golden angle spreads what follows another.
+  for (int i = 0; i < 400; ++i) {
+    const double radius = 4.0 * std::sqrt(double(i)), angle = 2.39996 * i;
+    const glm::dvec2 place = point + radius * glm::dvec2(std::cos(angle), std::sin(angle));
+    if (is_free(place)) return place;
+  }
+  return point;
 }
 
 std::string open_svg(double height, const std::string& label) {
@@ -92,18 +119,18 @@ std::string error_time_chart(const Study& study, const ReportInfo& info) {
     last = std::max(last, r.seconds);
     errors.add(error_of(r));
   }
-  // Ten times the work each way, so that the curves show where they lead.
+  // Room on both sides, so that the curves show where they lead.
   first *= scale / 8.0;
-  last *= scale * 30.0;
+  last *= scale * 15.0;
   const LogAxis x{first, last, kLeft, kRight};
   const LogAxis y{std::clamp(errors.lo / 6.0, kLowestError, 1.0),
                   std::clamp(errors.hi * 3.0, 2.0 * kLowestError, kHighestError), kBottom, kTop};
 
   std::string svg = open_svg(kHeight, "Relative error against time, both logarithmic");
-  for (const LogAxis::Tick& tick : x.ticks()) {
-    svg += line(x(tick.value), kTop, x(tick.value), kBottom, kGrid, tick.labelled ? 1.0 : 0.5);
-    if (tick.labelled)
-      svg += text(x(tick.value), kBottom + 18.0, "middle", duration_text(tick.value));
+  for (const auto& [seconds, label] : kTimeTicks) {
+    if (seconds < x.lo || seconds > x.hi) continue;
+    svg += line(x(seconds), kTop, x(seconds), kBottom, kGrid, 1.0);
+    svg += text(x(seconds), kBottom + 18.0, "middle", label);
   }
   for (const LogAxis::Tick& tick : y.ticks()) {
     svg += line(kLeft, y(tick.value), kRight, y(tick.value), kGrid, tick.labelled ? 1.0 : 0.5);
@@ -138,13 +165,22 @@ std::string error_time_chart(const Study& study, const ReportInfo& info) {
         x, y, std::max(first, scale * r.seconds / r.spp),
         [&](double seconds) { return std::sqrt(squared_error_after(r, seconds / scale)); }, style);
   }
-  for (std::size_t i = study.results.size(); i-- > 0;) {
+  std::vector<glm::dvec2> taken;
+  std::string markers;
+  for (std::size_t i = 0; i < study.results.size(); ++i) {
     const TrialResult& r = study.results[i];
     const RootInterval error = root(r.accuracy.squared_error);
-    const double px = x(scale * r.seconds);
-    svg += line(px, y(std::max(error.low, y.lo)), px, y(std::max(error.high, y.lo)), kInk, 1.5);
-    svg += marker(px, y(error.value), i + 1, r.trial.biased);
+    const glm::dvec2 point(x(scale * r.seconds), y(error.value));
+    const glm::dvec2 place = free_place(point, taken);
+    taken.push_back(place);
+    svg += line(point.x, y(std::max(error.low, y.lo)), point.x, y(std::max(error.high, y.lo)), kInk,
+                1.5) +
+           line(point.x, point.y, place.x, place.y, kInk, 0.7) +
+           fmt::format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="2.5" fill="{}"/>)", point.x, point.y,
+                       kInk);
+    markers += marker(place.x, place.y, i + 1, r.trial.biased);
   }
+  svg += markers;
   // The legend stands where no curve goes: errors fall with time.
   const double lx = kRight - 250.0;
   svg += fmt::format(R"(<rect x="{}" y="{}" width="250" height="92" fill="#fff" stroke="{}"/>)", lx,

@@ -37,6 +37,7 @@ code { font: 13px "DejaVu Sans Mono", monospace; white-space: pre-wrap; }
 figure { margin: 0; break-inside: avoid; }
 figure div { display: flex; gap: 4px; }
 figure img { width: 50%; height: auto; }
+figure.whole img { width: 100%; }
 figcaption { font-size: 14px; }
 @media print {
   body { margin: 0; max-width: none; font-size: 10pt; }
@@ -99,7 +100,7 @@ std::string table(const Study& study, const ReportInfo& info) {
         r.trial.biased ? " class=\"biased\"" : "", i + 1, escaped(r.trial.name), r.spp,
         duration_text(info.scale() * r.seconds), root_text(root(r.accuracy.squared_error)),
         root_text(root(r.accuracy.squared_bias)), signed_text(r.accuracy.mean_bias),
-        study.results.front().cost() / r.cost(), memory_text(r.memory_bytes));
+        efficiency(r, study.results.front()), memory_text(r.memory_bytes));
   }
   return html + "</tbody></table>\n";
 }
@@ -107,7 +108,7 @@ std::string table(const Study& study, const ReportInfo& info) {
 std::string gallery(const Study& study) {
   const Image reference = best_picture(study.reference);
   const float exposure = exposure_of(reference);
-  std::string html = "<div class=\"gallery\">\n<figure><div>" +
+  std::string html = "<div class=\"gallery\">\n<figure class=\"whole\"><div>" +
                      img(reference, exposure, "The reference") +
                      "</div><figcaption>The reference</figcaption></figure>\n";
   for (std::size_t i = 0; i < study.results.size(); ++i) {
@@ -136,9 +137,14 @@ std::string method(const Study& study, const ReportInfo& info) {
       "reference's mean radiance: the root of the squared error averaged over pixels and channels. "
       "Bias is the part of it that more samples do not remove. It is computed from products of "
       "different pictures' differences from the reference, which hold no noise on average; "
-      "intervals are of 95%, from the spread over pixels. Efficiency is one over variance times "
-      "seconds, compared with the default's. A setting is recommended instead of the default only "
-      "where it is faster by a tenth, or by a half if it is biased; its bias counts at the upper "
+      "intervals are of 95%, from the spread over pixels. Efficiency says how many times faster "
+      "than "
+      "the default a setting reaches the error of the default's first row; 0: its bias does not "
+      "let "
+      "it. A setting is recommended instead of the default only where it is faster by more than "
+      "the "
+      "intervals, and by a tenth on top, or by a half if it is biased; its bias counts at the "
+      "upper "
       "end of its interval.</p>\n",
       info.size.x, info.size.y, duration_text(info.seconds), duration_text(info.budget),
       info.threads, info.scale() == 1.0 ? "as they are" : "scaled by the number of pixels",

@@ -15,7 +15,18 @@ double squared_bias_limit(const TrialResult& result) {
   return std::max(bias.value + bias.error, 0.0);
 }
 
+/// Half width of the interval of the cost, relative.
+double uncertainty(const TrialResult& result) {
+  return result.accuracy.squared_error.error / result.accuracy.squared_error.value;
+}
+
 }  // namespace
+
+double efficiency(const TrialResult& result, const TrialResult& standard) {
+  const double bias = result.trial.biased ? std::max(result.accuracy.squared_bias.value, 0.0) : 0.0;
+  const double for_noise = standard.accuracy.variance - bias;
+  return for_noise > 0.0 ? standard.seconds * for_noise / result.cost() : 0.0;
+}
 
 std::optional<double> seconds_to_error(const TrialResult& result, double target) {
   const double for_noise = target * target - squared_bias_limit(result);
@@ -33,15 +44,16 @@ std::vector<Recommendation> recommend(std::span<const TrialResult> results) {
   for (const double target : kTargets) {
     const std::optional<double> by_default = seconds_to_error(results.front(), target);
     std::size_t best = 0;
-    double best_merit = *by_default;
+    double best_merit = *by_default * (1.0 - uncertainty(results.front()));
     for (std::size_t i = 1; i < results.size(); ++i) {
       if (results[i].trial.spp) continue;
       const auto seconds = seconds_to_error(results[i], target);
       if (!seconds) continue;
       const double handicap = results[i].trial.biased ? 1.5 : 1.1;
-      if (*seconds * handicap < best_merit) {
+      const double merit = *seconds * (1.0 + uncertainty(results[i])) * handicap;
+      if (merit < best_merit) {
         best = i;
-        best_merit = *seconds * handicap;
+        best_merit = merit;
       }
     }
     const TrialResult& chosen = results[best];

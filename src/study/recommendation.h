@@ -14,6 +14,10 @@ namespace brume {
 /// at the upper end of its interval, and for 0 where the trial is not declared biased.
 std::optional<double> seconds_to_error(const TrialResult& result, double target);
 
+/// How many times faster than `standard` the trial reaches the error of one of `standard`'s
+/// pictures, as estimated; 0 where its bias does not let it.
+double efficiency(const TrialResult& result, const TrialResult& standard);
+
 /// Squared relative error after `seconds`, by the same rule with the bias at its estimate.
 double squared_error_after(const TrialResult& result, double seconds);
 
@@ -27,9 +31,9 @@ struct Recommendation {
 };
 
 /// For each usual target, from a tenth down to a thousandth, the fastest trial. The default, which
-/// comes first, gives way only to what is clearly faster, and sooner to what is unbiased: by a
-/// tenth, or by a half for what is biased. Every trial reaches its targets by its own number of
-/// samples: those of a fixed one are passed over.
+/// comes first, gives way only to what is faster by more than the intervals of both, and by a tenth
+/// on top of it, or by a half for what is biased. Every trial reaches its targets by its own number
+/// of samples: those of a fixed one are passed over.
 std::vector<Recommendation> recommend(std::span<const TrialResult> results);
 
 /// The least error that any trial reaches in a time, and by which trial: the Pareto front.

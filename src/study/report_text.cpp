@@ -8,11 +8,23 @@
 namespace brume {
 namespace {
 
+/// Places behind the point that show `digits` significant ones of x > 0.
+int places_of(double x, int digits) {
+  const int before_point = int(std::floor(std::log10(x))) + 1;
+  return std::max(digits - before_point, 0);
+}
+
 /// Two significant digits, never in powers of ten.
 std::string two_digits(double x) {
   if (x == 0.0 || !std::isfinite(x)) return fmt::format("{}", x);
-  const int before_point = int(std::floor(std::log10(std::abs(x)))) + 1;
-  return fmt::format("{:.{}f}", x, std::max(2 - before_point, 0));
+  return fmt::format("{:.{}f}", x, places_of(std::abs(x), 2));
+}
+
+/// Both in percent, to the places that the error leaves.
+std::string with_error(double value, double error) {
+  if (!(error > 0.0) || !std::isfinite(error)) return percent_text(value);
+  const int places = places_of(100.0 * error, 1);
+  return fmt::format("{:.{}f}% ± {:.{}f}%", 100.0 * value, places, 100.0 * error, places);
 }
 
 }  // namespace
@@ -30,12 +42,12 @@ std::string percent_text(double x) {
 
 std::string root_text(const RootInterval& root) {
   if (root.low == 0.0) return "below " + percent_text(root.high);
-  return percent_text(root.value) + " ± " + percent_text(0.5 * (root.high - root.low));
+  return with_error(root.value, 0.5 * (root.high - root.low));
 }
 
 std::string signed_text(const Estimate& estimate) {
   const char* sign = estimate.value < 0.0 ? "−" : "+";
-  return sign + percent_text(std::abs(estimate.value)) + " ± " + percent_text(estimate.error);
+  return sign + with_error(std::abs(estimate.value), estimate.error);
 }
 
 std::string memory_text(std::size_t bytes) {

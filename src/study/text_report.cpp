@@ -30,12 +30,11 @@ std::string text_table(const Study& study, const ReportInfo& info) {
   std::vector<std::vector<std::string>> rows = {
       {"setting", "spp", "time", "error", "bias", "mean bias", "efficiency", "memory"}};
   for (const TrialResult& r : study.results)
-    rows.push_back({r.trial.name + (r.trial.biased ? " *" : ""), std::to_string(r.spp),
-                    duration_text(info.scale() * r.seconds),
-                    root_text(root(r.accuracy.squared_error)),
-                    root_text(root(r.accuracy.squared_bias)), signed_text(r.accuracy.mean_bias),
-                    fmt::format("{:.2f}", study.results.front().cost() / r.cost()),
-                    memory_text(r.memory_bytes)});
+    rows.push_back(
+        {r.trial.name + (r.trial.biased ? " *" : ""), std::to_string(r.spp),
+         duration_text(info.scale() * r.seconds), root_text(root(r.accuracy.squared_error)),
+         root_text(root(r.accuracy.squared_bias)), signed_text(r.accuracy.mean_bias),
+         fmt::format("{:.2f}", efficiency(r, study.results.front())), memory_text(r.memory_bytes)});
   std::vector<std::size_t> widths(rows.front().size(), 0);
   for (const auto& row : rows)
     for (std::size_t i = 0; i < row.size(); ++i)
@@ -77,7 +76,7 @@ std::string csv_report(const Study& study, const ReportInfo& info) {
         r.trial.name, r.trial.group, joined(r.trial.options), r.trial.biased ? "yes" : "no", r.spp,
         r.seeds, r.seconds, info.scale() * r.seconds, error.value, error.low, error.high,
         r.accuracy.squared_bias.value, r.accuracy.squared_bias.error, r.accuracy.mean_bias.value,
-        r.accuracy.mean_bias.error, r.accuracy.variance, study.results.front().cost() / r.cost(),
+        r.accuracy.mean_bias.error, r.accuracy.variance, efficiency(r, study.results.front()),
         r.memory_bytes);
   }
   return text;

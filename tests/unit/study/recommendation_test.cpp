@@ -44,6 +44,27 @@ TEST(Recommendation, TheDefaultGivesWayToWhatIsClearlyFasterOnly) {
   EXPECT_EQ(chosen(result(0.5, 1e-2, 1e-6)), 1u);
 }
 
+TEST(Recommendation, WhatNoiseMayExplainIsNotFaster) {
+  TrialResult fast = result(0.5, 1e-2);
+  const auto chosen = [&] {
+    const TrialResult both[] = {result(1.0, 1e-2), fast};
+    return recommend(both).front().trial;
+  };
+  EXPECT_EQ(chosen(), 1u);
+  fast.accuracy.squared_error.error = 0.7 * 1e-2;
+  EXPECT_EQ(chosen(), 1u);
+  fast.accuracy.squared_error.error = 0.9 * 1e-2;
+  EXPECT_EQ(chosen(), 0u);
+}
+
+TEST(Recommendation, EfficiencyIsTheRatioOfTimesToTheSameError) {
+  const TrialResult standard = result(1.0, 1e-2);
+  EXPECT_DOUBLE_EQ(efficiency(standard, standard), 1.0);
+  EXPECT_DOUBLE_EQ(efficiency(result(0.5, 1e-2), standard), 2.0);
+  EXPECT_DOUBLE_EQ(efficiency(result(0.5, 1e-2, 0.06), standard), 2.0 * 0.64);
+  EXPECT_EQ(efficiency(result(0.5, 1e-4, 0.2), standard), 0.0);
+}
+
 TEST(Recommendation, FastAndBiasedIsForLargeErrorsOnly) {
   const TrialResult both[] = {result(1.0, 1e-2), result(0.1, 1e-2, 0.008)};
   for (const Recommendation& r : recommend(both)) {

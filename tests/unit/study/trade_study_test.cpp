@@ -124,9 +124,9 @@ TEST(ReportText, NumbersAsPeopleWriteThem) {
   EXPECT_EQ(duration_text(1e6), "12 days");
   EXPECT_EQ(percent_text(0.0), "0%");
   EXPECT_EQ(percent_text(0.0035), "0.35%");
-  EXPECT_EQ(root_text({.value = 0.01, .low = 0.009, .high = 0.011}), "1.0% ± 0.10%");
+  EXPECT_EQ(root_text({.value = 0.01, .low = 0.009, .high = 0.011}), "1.0% ± 0.1%");
   EXPECT_EQ(root_text({.value = 0.01, .low = 0.0, .high = 0.02}), "below 2.0%");
-  EXPECT_EQ(signed_text({.value = -0.012, .error = 0.003}), "−1.2% ± 0.30%");
+  EXPECT_EQ(signed_text({.value = -0.012, .error = 0.003}), "−1.2% ± 0.3%");
   EXPECT_EQ(memory_text(12'300'000), "12 MB");
 }
 
