@@ -41,7 +41,8 @@ TEST_F(Usage, VersionGoesToStdout) {
 }
 
 TEST_F(Usage, NothingSaidIsAMistake) {
-  expect_refusal({}, 2, "brume: a command is needed: render, info, compare, trade\nTry: brume --help\n");
+  expect_refusal({}, 2,
+                 "brume: a command is needed: render, info, compare, trade\nTry: brume --help\n");
   expect_refusal({"render"}, 2, "brume: INPUT is required\nTry: brume render --help\n");
 }
 
