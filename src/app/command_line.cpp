@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "app/study_options.h"
 #include "app/version.h"
@@ -22,6 +23,15 @@ std::optional<std::pair<double, std::string>> leading_number(const std::string& 
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || !std::isfinite(value)) return std::nullopt;
   return std::pair{value, std::string(end, text.data() + text.size())};
+}
+
+/// A check for options: a number in [lo, hi]. CLI::Range lets NaN pass.
+auto number_between(double lo, double hi) {
+  return [=](const std::string& text) -> std::string {
+    const auto number = leading_number(text);
+    if (number && number->second.empty() && number->first >= lo && number->first <= hi) return {};
+    return fmt::format("\"{}\" is no number from {:.3g} to {:.3g}", text, lo, hi);
+  };
 }
 
 double parse_duration(const char* option, const std::string& text) {
@@ -79,7 +89,10 @@ std::pair<std::string, std::string> parse_definition(const std::string& text) {
 }
 
 void add_input(CLI::App& command, std::string& input, const char* description) {
-  auto* positional = command.add_option("INPUT", input, description)->required();
+  const auto not_empty = [](const std::string& text) -> std::string {
+    return text.empty() ? "the name is empty" : "";
+  };
+  auto* positional = command.add_option("INPUT", input, description)->required()->check(not_empty);
   // The positional is satisfied by -s FILE too.
   command
       .add_option_function<std::string>(
@@ -89,6 +102,7 @@ void add_input(CLI::App& command, std::string& input, const char* description) {
             positional->required(false);
           },
           "The same as INPUT")
+      ->check(not_empty)
       ->trigger_on_parse();
 }
 
@@ -140,7 +154,7 @@ void add_volume_options(CLI::App& command, RenderOptions& options) {
   command
       .add_option("--density-scale", options.density_scale,
                   "Extinction per density [1/unit]; default: from the optical thickness")
-      ->check(CLI::PositiveNumber)
+      ->check(number_between(std::numeric_limits<float>::min(), std::numeric_limits<float>::max()))
       ->type_name("X")
       ->group(volume);
   command
@@ -151,7 +165,7 @@ void add_volume_options(CLI::App& command, RenderOptions& options) {
       ->group(volume);
   command
       .add_option("--g", options.g, "Asymmetry of Henyey-Greenstein scattering, forward positive")
-      ->check(CLI::Range(-1.0, 1.0))
+      ->check(number_between(-1.0, 1.0))
       ->type_name("X")
       ->group(volume);
 }
@@ -189,7 +203,7 @@ void add_render(CLI::App& app, RenderOptions& options) {
   render
       .add_option("--exposure", options.exposure,
                   "Brightness of .png and .jpg in stops; each doubles it")
-      ->check(CLI::Range(-100.0, 100.0))
+      ->check(number_between(-100.0, 100.0))
       ->type_name("STOPS")
       ->group(picture);
   render.add_option("--aov", options.layers, "More layers in .exr files: albedo, depth")

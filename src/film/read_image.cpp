@@ -61,6 +61,14 @@ void require_finite(const Image& image, std::size_t channels, const std::string&
 
 constexpr const char* kErrorLayers[] = {"stderr.R", "stderr.G", "stderr.B"};
 
+/// Headers of damaged files claim sizes that no memory could hold.
+void require_sensible_size(int width, int height, const std::string& path) {
+  constexpr std::int64_t kMaxPixels = std::int64_t(1) << 30;
+  if (width > 0 && height > 0 && std::int64_t(width) * height <= kMaxPixels) return;
+  throw Error(fmt::format("{}: a picture of {} x {} pixels; expected 1 to {} in all", path, width,
+                          height, kMaxPixels));
+}
+
 /// Positions of the error layers in the file; none unless all are there.
 std::vector<std::size_t> error_channels(const OIIO::ImageSpec& spec) {
   std::vector<std::size_t> positions;
@@ -82,6 +90,8 @@ Image read(const std::string& path, IntegerEncoding encoding, bool with_errors) 
         fmt::format("{}: cannot be read as a picture: {}", path, one_line(OIIO::geterror())));
 
   const OIIO::ImageSpec& spec = file->spec();
+  require_sensible_size(spec.width, spec.height, path);
+  require_sensible_size(spec.full_width, spec.full_height, path);
   std::vector<std::size_t> source = colour_channels(spec, path);
   const std::size_t colours = source.size();
   const std::vector<std::size_t> errors =

@@ -2,8 +2,8 @@
 #include "io/grid_builder.h"
 
 #include <fmt/format.h>
-#include <nanovdb/util/OpenToNanoVDB.h>
 #include <openvdb/openvdb.h>
+#include <openvdb/tools/ChangeBackground.h>
 #include <openvdb/tools/Dense.h>
 #include <openvdb/tools/LevelSetUtil.h>
 #include <openvdb/tools/Prune.h>
@@ -13,6 +13,7 @@
 
 #include "core/error.h"
 #include "io/grid_checks.h"
+#include "io/grid_to_nano.h"
 
 namespace brume {
 namespace {
@@ -50,11 +51,8 @@ template <class Value>
 std::shared_ptr<const Grid<Value>> finish(typename OpenType<Value>::Grid& grid,
                                           const glm::dmat4& world_from_index, const Box3& box,
                                           Interpolation interpolation, Wrap wrap) {
-  grid.setTransform(openvdb::math::Transform::createLinearTransform());
-  grid.setName("");
-  return std::make_shared<const Grid<Value>>(
-      nanovdb::openToNanoVDB(grid, nanovdb::StatsMode::MinMax, nanovdb::ChecksumMode::Disable),
-      world_from_index, box, interpolation, wrap);
+  return std::make_shared<const Grid<Value>>(grid_to_nano(grid.tree()), world_from_index, box,
+                                             interpolation, wrap);
 }
 
 template <class Value>
@@ -66,8 +64,25 @@ std::shared_ptr<const Grid<Value>> vacuum(const glm::dmat4& world_from_index,
                        Wrap::kBackground);
 }
 
-/// Narrow-band distances become a fog of density 1 inside, falling to 0 at the surface.
+/// Narrow-band distances become a fog of density 1 inside, falling to 0 at the surface. The value
+/// outside is the width of the band; where a program wrote 0 there, the largest distance is.
 void turn_into_fog(openvdb::FloatGrid& grid, const std::string& label, Notices& notices) {
+  float lowest = 0.0f, highest = 0.0f;
+  for (auto value = grid.cbeginValueAll(); value; ++value) {
+    lowest = std::min(lowest, *value);
+    highest = std::max(highest, *value);
+  }
+  if (lowest == 0.0f)
+    notices.push_back(
+        fmt::format("{}: a level set without an inside: no distance is negative", label));
+  if (grid.background() <= 0.0f && lowest < 0.0f) {
+    const float width = std::max(-lowest, highest);
+    notices.push_back(fmt::format(
+        "{}: a level set whose value outside is {:g}, where the width of its band belongs; took "
+        "the largest distance in it, {:.4g}",
+        label, grid.background(), width));
+    openvdb::tools::changeBackground(grid.tree(), width);
+  }
   openvdb::tools::sdfToFogVolume(grid);
   notices.push_back(fmt::format(
       "{}: a level set, turned into fog: density 1 inside, falling to 0 at the surface", label));

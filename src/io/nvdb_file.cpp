@@ -2,7 +2,6 @@
 #include <blosc.h>
 #include <fmt/format.h>
 #include <nanovdb/util/IO.h>
-#include <nanovdb/util/NanoToOpenVDB.h>
 #include <openvdb/openvdb.h>
 #include <zlib.h>
 
@@ -11,7 +10,7 @@
 
 #include "core/error.h"
 #include "io/grid_file.h"
-#include "io/nano_checks.h"
+#include "io/grid_from_nano.h"
 
 namespace brume {
 namespace {
@@ -86,8 +85,7 @@ struct Entry {
   std::int64_t position;  // of the data in the file
 };
 
-/// NanoVDB trusts every length and offset of a file; here they are held against what is left of it,
-/// and the tree is checked before anything walks it.
+/// NanoVDB trusts every length and offset of a file; here they are held against what is left of it.
 class NvdbFile final : public GridFile {
  public:
   explicit NvdbFile(const std::string& path)
@@ -129,8 +127,7 @@ class NvdbFile final : public GridFile {
       Handle handle(nanovdb::HostBuffer::create(entry.meta.gridSize));
       stream_.seekg(entry.position);
       read_data(entry, handle);
-      make_sound(handle.data(), handle.size(), entry.meta.gridType);
-      grid = nanovdb::nanoToOpenVDB(handle);
+      grid = grid_from_nano(handle.data(), handle.size(), std::uint32_t(entry.meta.gridType));
     });
     return grid;
   }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "io/nearest_name.h"
 
@@ -25,6 +26,16 @@ bool contains(const NumberRange& range, double x) {
   return (range.excludes_min ? x > range.min : x >= range.min) && x <= range.max;
 }
 
+/// Throws unless the number `x`, a part of parameter `p`, is in range and a float can hold it.
+void require_within(const NumberRange& range, double x, const SceneParameter& p,
+                    const std::string& label) {
+  const bool too_large = std::abs(x) > double(std::numeric_limits<float>::max());
+  if (contains(range, x) && !too_large) return;
+  fail_at(p.value_at, fmt::format("parameter \"{}\" of {} is {}, {}", p.written, label, x,
+                                  contains(range, x) ? "beyond single precision (3.4e38)"
+                                                     : "but must be " + describe(range)));
+}
+
 }  // namespace
 
 std::filesystem::path find_file(const std::filesystem::path& given,
@@ -36,7 +47,8 @@ std::filesystem::path find_file(const std::filesystem::path& given,
   for (const std::filesystem::path& folder : folders) {
     const std::filesystem::path candidate = folder.empty() ? given : folder / given;
     if (std::filesystem::exists(candidate, ignored)) return candidate;
-    tried.push_back(folder.empty() ? "." : folder.string());
+    const std::string name = folder.empty() ? "." : folder.string();
+    if (std::find(tried.begin(), tried.end(), name) == tried.end()) tried.push_back(name);
   }
   fail_at(where, given.is_absolute() ? fmt::format("there is no file \"{}\"", given.string())
                                      : fmt::format("there is no file \"{}\" (looked in {})",
@@ -93,10 +105,7 @@ double SceneNode::number(std::string_view name, double fallback, NumberRange ran
   } else {
     x = *find_value<double>(name, "a number");
   }
-  if (!contains(range, x) || std::abs(x) > double(std::numeric_limits<float>::max())) {
-    fail_at(p->value_at, fmt::format("parameter \"{}\" of {} is {}, but must be {}", p->written,
-                                     label(), x, describe(range)));
-  }
+  require_within(range, x, *p, label());
   return x;
 }
 
@@ -167,12 +176,7 @@ Rgb SceneNode::colour(std::string_view name, double fallback, ColourUse use) con
 
   const NumberRange range =
       use == ColourUse::kReflectance ? NumberRange{.min = 0.0, .max = 1.0} : kNonNegative;
-  for (int i = 0; i < 3; ++i) {
-    if (!contains(range, c[i]) || c[i] > double(std::numeric_limits<float>::max())) {
-      fail_at(p->value_at, fmt::format("parameter \"{}\" of {} is {}, but must be {}", p->written,
-                                       label(), c[i], describe(range)));
-    }
-  }
+  for (int i = 0; i < 3; ++i) require_within(range, c[i], *p, label());
   return Rgb(c);
 }
 

@@ -49,11 +49,17 @@ std::string excerpt(const std::string& text, std::size_t offset) {
 
 }  // namespace
 
-std::string read_whole_file(const std::filesystem::path& path) {
+void require_file(const std::filesystem::path& path) {
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  if (std::filesystem::is_directory(status))
     throw Error(fmt::format("{}: is a folder, not a file", path.string()));
-  }
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    throw Error(fmt::format("{}: is a device or a pipe, not a file", path.string()));
+}
+
+std::string read_whole_file(const std::filesystem::path& path) {
+  require_file(path);
   std::FILE* file = std::fopen(path.c_str(), "rb");
   if (file == nullptr) throw Error(fmt::format("{}: {}", path.string(), std::strerror(errno)));
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> closer(file, &std::fclose);

@@ -14,6 +14,10 @@ struct SourceFile {
   std::string text;            // UTF-8
 };
 
+/// Throws an input error that names the path when it leads to a folder, a device or a pipe, which
+/// could be read for ever. A path that leads nowhere passes: opening it tells why.
+void require_file(const std::filesystem::path& path);
+
 /// Reads a file whole. Throws an input error that names the path when there is none to read.
 std::string read_whole_file(const std::filesystem::path& path);
 

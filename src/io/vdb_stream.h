@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cstdint>
-#include <filesystem>
 #include <fstream>
-#include <stdexcept>
 #include <string>
 
 namespace brume {
@@ -15,10 +11,7 @@ namespace brume {
 /// is left before it believes them.
 class VdbStream {
  public:
-  explicit VdbStream(const std::string& path)
-      : stream_(path, std::ios::binary), size_(std::int64_t(std::filesystem::file_size(path))) {
-    stream_.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
-  }
+  explicit VdbStream(const std::string& path);
 
   std::istream& stream() { return stream_; }
   std::int64_t size() const { return size_; }  // [bytes]
@@ -34,30 +27,13 @@ class VdbStream {
   }
 
   /// Bytes of a block whose length precedes it.
-  std::string read_string() {
-    const std::uint32_t length = read<std::uint32_t>();
-    std::string text(std::size_t(checked_length(length)), '\0');
-    if (!text.empty()) stream_.read(text.data(), std::streamsize(text.size()));
-    return text;
-  }
+  std::string read_string();
 
   /// Passes over a metadata dictionary, looking only at its lengths.
-  void skip_metadata() {
-    const auto count = read<std::uint32_t>();
-    for (std::uint32_t i = 0; i < count; ++i) {
-      read_string();                // name
-      read_string();                // type
-      skip(read<std::uint32_t>());  // value
-    }
-  }
+  void skip_metadata();
 
   /// Throws unless `length` bytes are left.
-  std::int64_t checked_length(std::int64_t length) {
-    if (length > size_ - position())
-      throw std::runtime_error(
-          fmt::format("a block of {} bytes where {} are left", length, size_ - position()));
-    return length;
-  }
+  std::int64_t checked_length(std::int64_t length);
 
  private:
   std::ifstream stream_;

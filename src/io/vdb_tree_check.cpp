@@ -52,9 +52,12 @@ class TreeCheck {
 
   /// Returns the number of its children.
   std::int64_t check_internal_node(int size) {
-    const std::int64_t children = count(read_mask(size));
-    check_values(read_mask(size), size);
-    return children;
+    const Mask children = read_mask(size);
+    const Mask active = read_mask(size);
+    for (std::size_t i = 0; i < children.size(); ++i)
+      if ((children[i] & active[i]) != 0) throw std::runtime_error("a child is a value too");
+    check_values(active, size);
+    return count(children);
   }
 
   void check_values(const Mask& active, int size) {

@@ -14,6 +14,7 @@
 #include "io/grid_builder.h"
 #include "io/grid_file.h"
 #include "io/nearest_name.h"
+#include "io/source_file.h"
 #include "io/vol_file.h"
 
 namespace brume {
@@ -23,9 +24,7 @@ enum class Format { kVdb, kNvdb, kVol };
 
 /// By content: names of volume files lie.
 Format format_of(const std::string& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored))
-    throw Error(fmt::format("{}: is a folder, not a volume file", path));
+  require_file(path);
   std::ifstream stream(path, std::ios::binary);
   if (!stream)
     throw Error(fmt::format("{}: {}", path, std::strerror(errno)),

@@ -91,6 +91,10 @@ TEST_F(Usage, ValuesThatMakeNoSenseAreRefused) {
                      try_help);
   for (const std::vector<std::string>& words : {std::vector<std::string>{"--threads", "0"},
                                                 {"--g", "1.5"},
+                                                {"--g", "nan"},
+                                                {"--exposure", "nan"},
+                                                {"--density-scale", "nan"},
+                                                {"--density-scale", "1e39"},
                                                 {"--density-scale", "-1"},
                                                 {"--max-depth", "-2"},
                                                 {"--aov", "normals"},
@@ -111,6 +115,7 @@ TEST_F(Usage, OptionsForVolumesAreRefusedForScenesAndTheOtherWayRound) {
 }
 
 TEST_F(Usage, FilesThatAreNoInputAreNamed) {
+  expect_refusal({"render", ""}, 2, "brume: INPUT: the name is empty\nTry: brume render --help\n");
   expect_refusal({"render", "nowhere.xml"}, 2, "brume: nowhere.xml: No such file or directory\n");
   expect_refusal({"render", "nowhere.vdb"}, 2, "brume: nowhere.vdb: No such file or directory\n");
   expect_refusal({"info", "nowhere.xml"}, 2, "brume: nowhere.xml: No such file or directory\n");

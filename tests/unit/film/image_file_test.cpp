@@ -205,6 +205,10 @@ TEST_F(ImageFile, ReadingNamesTheFileAndWhatWasFound) {
   EXPECT_THAT(damaged.first, HasSubstr(path("text.png")));
   EXPECT_EQ(damaged.second, ErrorKind::kInput);
 
+  std::ofstream(path("huge.pgm")) << "P5\n200000 200000\n255\n";
+  EXPECT_THAT(error_of([&] { read_image(path("huge.pgm")); }).first,
+              AllOf(HasSubstr(path("huge.pgm")), HasSubstr("200000 x 200000 pixels")));
+
   write_image(path("cut.exr"), gradient(64, 64));
   fs::resize_file(path("cut.exr"), fs::file_size(path("cut.exr")) / 2);
   EXPECT_THAT(error_of([&] { read_image(path("cut.exr")); }).first, HasSubstr(path("cut.exr")));

@@ -228,7 +228,7 @@ TEST_F(SceneErrors, NameWhatIsWrongWithTheFileAsAWhole) {
               HasSubstr("a second root element <scene>"));
 }
 
-TEST_F(SceneErrors, NameAMissingFileAndAFolder) {
+TEST_F(SceneErrors, NameAMissingFileAFolderAndADevice) {
   Notices notices;
   const auto message = [&](const std::string& name) {
     try {
@@ -240,6 +240,13 @@ TEST_F(SceneErrors, NameAMissingFileAndAFolder) {
   };
   EXPECT_EQ(message("none.xml"), (folder() / "none.xml").string() + ": No such file or directory");
   EXPECT_THAT(message("."), HasSubstr("is a folder, not a file"));
+  EXPECT_THAT(message("/dev/zero"), HasSubstr("is a device or a pipe, not a file"));
+}
+
+TEST_F(SceneErrors, NumbersBeyondSinglePrecisionAreRefused) {
+  EXPECT_THAT(error_line(with_sensor(
+                  R"(<shape type="sphere"><float name="radius" value="1e300"/></shape>)")),
+              HasSubstr("\"radius\" of sphere shape is 1e+300, beyond single precision"));
 }
 
 TEST_F(SceneErrors, NestingIsLimitedAndNeverOverflowsTheStack) {

@@ -119,6 +119,25 @@ TEST_F(DamagedFileLaw, NvdbTreesThatPointElsewhereAreRefused) {
   EXPECT_GT(refused_, 0);
 }
 
+TEST_F(DamagedFileLaw, NvdbNodesHaveOneParent) {
+  auto handle = nanovdb::openToNanoVDB(*ball());
+  auto* nodes = handle.grid<float>()->tree().getFirstNode<1>();
+  const auto* leaf = nodes[0].data()->getChild(*nodes[0].childMask().beginOn());
+  nodes[1].data()->setChild(*nodes[1].childMask().beginOn(), leaf);
+  nanovdb::io::writeGrid(path("test.nvdb"), handle);
+  EXPECT_THAT(test::error_of([&] { load(path("test.nvdb")); }),
+              ::testing::HasSubstr("two nodes share a child"));
+}
+
+TEST_F(DamagedFileLaw, NvdbNodesThatGoMissingAreNoticed) {
+  auto handle = nanovdb::openToNanoVDB(*ball());
+  auto& node = *handle.grid<float>()->tree().getFirstNode<1>();
+  node.data()->mChildMask.setOff(*node.childMask().beginOn());
+  nanovdb::io::writeGrid(path("test.nvdb"), handle);
+  EXPECT_THAT(test::error_of([&] { load(path("test.nvdb")); }),
+              ::testing::HasSubstr("nodes of level 0 where it counts"));
+}
+
 TEST_F(DamagedFileLaw, VolEndsInAnError) {
   std::string bytes("VOL\3", 4);
   const std::int32_t header[] = {1, 4, 4, 4, 1, 0, 0, 0, 0x3f800000, 0x3f800000, 0x3f800000};

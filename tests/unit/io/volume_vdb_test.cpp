@@ -231,6 +231,30 @@ TEST_F(VdbFileLaw, LevelSetBecomesFog) {
   EXPECT_LT(edge, 1.0f);
 }
 
+TEST_F(VdbFileLaw, LevelSetWithoutAWidthTakesItsLargestDistance) {
+  const auto grid = openvdb::FloatGrid::create(0.0f);
+  grid->setGridClass(openvdb::GRID_LEVEL_SET);
+  for (int x = -4; x <= 4; ++x) grid->tree().setValue(openvdb::Coord(x, 0, 0), 0.5f * float(x));
+  const auto loaded = load(write_vdb({grid}));
+  EXPECT_THAT(notices_, ElementsAre(AllOf(HasSubstr("value outside is 0"),
+                                          HasSubstr("took the "
+                                                    "largest distance in it, 2")),
+                                    HasSubstr("into fog")));
+  EXPECT_EQ(voxel(*loaded, -4, 0, 0), 1.0f);
+  EXPECT_EQ(voxel(*loaded, -1, 0, 0), 0.25f);
+  EXPECT_EQ(voxel(*loaded, 1, 0, 0), 0.0f);
+  EXPECT_EQ(voxel(*loaded, 0, 1, 0), 0.0f);
+}
+
+TEST_F(VdbFileLaw, LevelSetWithoutAnInsideSaysSo) {
+  const auto grid = openvdb::FloatGrid::create(3.0f);
+  grid->setGridClass(openvdb::GRID_LEVEL_SET);
+  grid->tree().setValue(openvdb::Coord(0, 0, 0), 0.5f);
+  load(write_vdb({grid}));
+  EXPECT_THAT(notices_, ElementsAre(HasSubstr("without an inside"), HasSubstr("into fog"),
+                                    HasSubstr("empty, rendered as vacuum")));
+}
+
 TEST_F(VdbFileLaw, ColorsAreReadFromVectors) {
   const auto grid = openvdb::Vec3DGrid::create(openvdb::Vec3d(0.0));
   grid->tree().setValue(openvdb::Coord(0, 0, 0), openvdb::Vec3d(0.25, -1.0, 0.75));
@@ -287,6 +311,7 @@ TEST_F(VdbFileLaw, DistantVoxelsAreRefused) {
 TEST_F(VdbFileLaw, WhatIsNoVolumeIsNamed) {
   EXPECT_THAT(error_of([&] { load(path("missing.vdb")); }), HasSubstr("missing.vdb"));
   EXPECT_THAT(error_of([&] { load(path("")); }), HasSubstr("is a folder"));
+  EXPECT_THAT(error_of([&] { load("/dev/null"); }), HasSubstr("is a device or a pipe"));
   EXPECT_THAT(error_of([&] { load(write_bytes("empty.vdb", "")); }), HasSubstr("is empty"));
   EXPECT_THAT(error_of([&] { load(write_bytes("text.vdb", "hello, this is no volume")); }),
               HasSubstr("neither a .vdb"));
