@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Draws docs/extremes.svg from docs/extremes.csv: relative error against each extreme.
+"""Draws the chart of relative error against each extreme, and sums up the matrix in docs/extremes.md.
 
-A panel for each axis of the matrix with at least three extremes of known radiance. Dots are
-|mean - want| / want, open where the expected radiance is that of another render; the bar reaches up
-to 4.5 standard errors, the limit that the test allows. Prints a summary of the whole matrix.
+Arguments: the table that extremes_report wrote, the picture to draw, the page whose part between
+the marks is replaced. A panel for each axis of the matrix with at least three extremes of known
+radiance; of the channels, the one that is furthest off.
 """
 import csv
 import math
@@ -13,42 +13,55 @@ from collections import defaultdict
 from xml.sax.saxutils import escape
 
 LOW, HIGH = -8, 0  # decades of relative error shown
-COLUMNS, WIDTH, HEIGHT = 4, 250, 170
-LEFT, TOP, RIGHT, BOTTOM = 34, 26, 8, 24
+FAINTEST = 1e-37  # radiance below which floats lose digits
+COLUMNS, WIDTH, HEIGHT = 4, 262, 170
+LEFT, TOP, RIGHT, BOTTOM, LEGEND = 34, 26, 10, 24, 34
+# Colours that readers with any colour vision tell apart (Okabe and Ito 2008).
+DOT, BAR = "#d55e00", "#56b4e9"
+BEGIN, END = "<!-- written by scripts/extremes.sh -->\n", "<!-- end -->\n"
+LIMIT = 4.5  # standard errors that the test allows
 
 
-def read(path):
-    axes = defaultdict(list)
+class Row:
+    def __init__(self, fields):
+        self.axis, self.name, self.known = fields["axis"], fields["name"], fields["known"]
+        for key in ("at", "want", "mean", "standard_error", "samples", "bad", "violations", "seconds"):
+            setattr(self, key, float(fields[key]))
+
+    def has_error(self):
+        return self.known != "soundness" and self.want > FAINTEST
+
+    def error(self):
+        return abs(self.mean - self.want) / self.want
+
+    def spread(self):
+        return self.standard_error / self.want
+
+
+def cells_of(path):
+    """One row for each cell: that of the channel furthest from what is known."""
+    channels = defaultdict(list)
     with open(path, newline="") as file:
-        for row in csv.DictReader(file):
-            if row["channel"] == "g":
-                axes[row["axis"]].append(
-                    {k: float(row[k]) for k in ("at", "want", "mean", "standard_error", "samples",
-                                                "bad", "violations", "seconds")})
-    return axes
+        for fields in csv.DictReader(file):
+            channels[fields["name"]].append(Row(fields))
+    return [max(rows, key=lambda r: r.error() if r.has_error() else -1) for rows in channels.values()]
 
 
-def relative(row):
-    want = row["want"]
-    if not want > 1e-37:
-        return None
-    return abs(row["mean"] - want) / want, row["standard_error"] / want
+def number(at):
+    return f"{at:.3g}".replace("e+0", "e").replace("e-0", "e-").replace("e+", "e")
 
 
-def panel(axis, rows, column, line):
-    x0, y0 = column * WIDTH, line * HEIGHT
+def panel(axis, rows, x0, y0):
     inner_w, inner_h = WIDTH - LEFT - RIGHT, HEIGHT - TOP - BOTTOM
-    signed = min(r["at"] for r in rows) < 0 or any(r["at"] == 0 for r in rows)
-    places = sorted({r["at"] for r in rows})
-    if signed:
+    places = sorted({r.at for r in rows})
+    if places[0] <= 0:
         position = {at: i for i, at in enumerate(places)}
-        low, high = 0, max(1, len(places) - 1)
     else:
         position = {at: math.log10(at) for at in places}
-        low, high = position[places[0]], position[places[-1]]
+    low, high = position[places[0]], position[places[-1]]
 
     def x(at):
-        return x0 + LEFT + 6 + (position[at] - low) / (high - low) * (inner_w - 12)
+        return x0 + LEFT + 8 + (position[at] - low) / (high - low) * (inner_w - 16)
 
     def y(error):
         decade = min(max(math.log10(error) if error > 0 else LOW, LOW), HIGH)
@@ -56,54 +69,84 @@ def panel(axis, rows, column, line):
 
     out = [f'<text x="{x0 + LEFT}" y="{y0 + 16}" class="title">{escape(axis)}</text>']
     for decade in range(LOW, HIGH + 1, 2):
-        level = y(10.0 ** decade)
+        level = y(10.0**decade)
         out.append(f'<line x1="{x0 + LEFT}" x2="{x0 + WIDTH - RIGHT}" y1="{level:.1f}" '
                    f'y2="{level:.1f}" class="grid"/>')
         out.append(f'<text x="{x0 + LEFT - 4}" y="{level + 3:.1f}" class="label" '
                    f'text-anchor="end">1e{decade}</text>')
-    step = max(1, math.ceil(len(places) / 6))
-    for at in places[::step]:
+    written = -math.inf
+    for at in places:
+        if x(at) - written < 34:
+            continue
+        written = x(at)
         out.append(f'<text x="{x(at):.1f}" y="{y0 + HEIGHT - BOTTOM + 13}" class="label" '
-                   f'text-anchor="middle">{at:.4g}</text>')
+                   f'text-anchor="middle">{number(at)}</text>')
     for row in rows:
-        error, spread = relative(row)
-        if spread > 0:
-            out.append(f'<line x1="{x(row["at"]):.1f}" x2="{x(row["at"]):.1f}" '
-                       f'y1="{y(4.5 * spread):.1f}" y2="{y(10.0 ** LOW):.1f}" class="bar"/>')
-        out.append(f'<circle cx="{x(row["at"]):.1f}" cy="{y(error):.1f}" r="2.6" class="dot"/>')
+        if row.spread() > 0:
+            top, bottom = y(LIMIT * row.spread()), y(0)
+            out.append(f'<rect x="{x(row.at) - 2.5:.1f}" y="{top:.1f}" width="5" '
+                       f'height="{bottom - top:.1f}" class="bar"/>')
+    for row in rows:
+        fill = DOT if row.known == "value" else "#fff"
+        out.append(f'<circle cx="{x(row.at):.1f}" cy="{y(row.error()):.1f}" r="2.6" fill="{fill}" '
+                   'class="dot"/>')
     return out
 
 
-def main():
-    axes = read(sys.argv[1])
-    panels = []
-    for axis, rows in axes.items():
-        known = [r for r in rows if relative(r) is not None]
-        if len({r["at"] for r in known}) >= 3:
-            panels.append((axis, known))
-    lines = math.ceil(len(panels) / COLUMNS)
-    width, height = COLUMNS * WIDTH, lines * HEIGHT
+def draw(cells, path):
+    axes = defaultdict(list)
+    for row in cells:
+        if row.has_error():
+            axes[row.axis].append(row)
+    panels = [(axis, rows) for axis, rows in axes.items() if len({r.at for r in rows}) >= 3]
+    width, height = COLUMNS * WIDTH, LEGEND + math.ceil(len(panels) / COLUMNS) * HEIGHT
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '
            f'viewBox="0 0 {width} {height}">',
-           "<style>text{font-family:sans-serif;fill:#222}.title{font-size:10px;font-weight:bold}"
-           ".label{font-size:8px}.grid{stroke:#ddd}.bar{stroke:#9cf;stroke-width:5}"
-           ".dot{fill:#c30}</style>",
-           f'<rect width="{width}" height="{height}" fill="#fff"/>']
+           "<style>text{font-family:sans-serif;fill:#222;font-size:10px}.title{font-weight:bold}"
+           f".label{{font-size:8px}}.grid{{stroke:#ddd}}.bar{{fill:{BAR}}}"
+           f".dot{{stroke:{DOT}}}</style>",
+           f'<rect width="{width}" height="{height}" fill="#fff"/>',
+           f'<circle cx="{LEFT}" cy="16" r="2.6" fill="{DOT}" class="dot"/>',
+           f'<text x="{LEFT + 8}" y="20">relative error against the known value</text>',
+           f'<circle cx="{LEFT + 230}" cy="16" r="2.6" fill="#fff" class="dot"/>',
+           f'<text x="{LEFT + 238}" y="20">against a render of the same scene, not extreme</text>',
+           f'<rect x="{LEFT + 500}" y="11" width="5" height="10" class="bar"/>',
+           f'<text x="{LEFT + 510}" y="20">up to {LIMIT} standard errors, which the test allows; '
+           'errors below 1e-8 stand at 1e-8</text>']
     for i, (axis, rows) in enumerate(panels):
-        out += panel(axis, rows, i % COLUMNS, i // COLUMNS)
+        out += panel(axis, rows, i % COLUMNS * WIDTH, LEGEND + i // COLUMNS * HEIGHT)
     out.append("</svg>")
-    with open(sys.argv[2], "w") as file:
+    with open(path, "w") as file:
         file.write("\n".join(out) + "\n")
 
-    rows = [r for rows in axes.values() for r in rows]
-    z = [(r["mean"] - r["want"]) / r["standard_error"] for r in rows
-         if relative(r) is not None and r["standard_error"] > 1e-4 * r["want"]]
-    print(f"{len(rows)} cells, {sum(r['samples'] for r in rows):.3g} samples, "
-          f"{sum(r['bad'] for r in rows):.0f} bad samples, "
-          f"{sum(r['violations'] for r in rows):.0f} violated majorants, "
-          f"{sum(r['seconds'] for r in rows):.0f} s; of {len(z)} with a standard error above 1e-4 "
-          f"the mean square of z is {sum(v * v for v in z) / len(z):.2f}, "
-          f"the largest |z| {max(abs(v) for v in z):.2f}")
+
+def summary(cells):
+    known = [r for r in cells if r.has_error()]
+    z = [(r.mean - r.want) / r.standard_error for r in known if r.spread() > 1e-4]
+    exact = [r for r in known if r.spread() <= 1e-6]
+    furthest = max(exact, key=Row.error)
+    return (f"| cells | {len(cells)}, of them {len(known)} with a known radiance |\n|---|---|\n"
+            f"| samples | {sum(r.samples for r in cells):.3g} |\n"
+            f"| samples that are NaN, infinite or negative | {sum(r.bad for r in cells):.0f} |\n"
+            f"| violated majorants | {sum(r.violations for r in cells):.0f} |\n"
+            f"| largest distance from the known, in standard errors | {max(map(abs, z)):.2f} "
+            f"of {len(z)} cells with a standard error above 1e-4 |\n"
+            f"| largest relative error where nothing is random | {furthest.error():.1e}: "
+            f"{furthest.axis} at {number(furthest.at)} |\n"
+            f"| seconds, one thread | {sum(r.seconds for r in cells):.0f} |\n")
+
+
+def main():
+    table, picture, page = sys.argv[1:]
+    cells = cells_of(table)
+    draw(cells, picture)
+    with open(page) as file:
+        text = file.read()
+    before, rest = text.split(BEGIN, 1)
+    after = rest.split(END, 1)[1]
+    with open(page, "w") as file:
+        file.write(before + BEGIN + "\n" + summary(cells) + "\n" + END + after)
+    print(summary(cells), end="")
 
 
 main()

@@ -23,21 +23,22 @@ void check_only_one(const SceneNode& node, const char* name, const char* other) 
   }
 }
 
-void build_point(const SceneNode& node, BuildContext& /*context*/, SceneParts& parts) {
+void build_point(const SceneNode& node, BuildContext& context, SceneParts& parts) {
   check_only_one(node, "position", "to_world");
-  const glm::dvec3 position = node.vec3("position", glm::dvec3(node.transform("to_world")[3]));
+  const glm::dvec3 position =
+      node.vec3("position", glm::dvec3(node.transform("to_world")[3])) - context.origin;
   parts.lights.push_back(std::make_shared<PointLight>(
       Vec3(position), node.colour("intensity", 1.0, ColourUse::kEmission)));
 }
 
-void build_spot(const SceneNode& node, BuildContext& /*context*/, SceneParts& parts) {
+void build_spot(const SceneNode& node, BuildContext& context, SceneParts& parts) {
   const double cutoff_deg =
       node.number("cutoff_angle", 20.0, {.min = 0.0, .max = 180.0, .excludes_min = true});
   const double beam_deg =
       node.number("beam_width", cutoff_deg * 3.0 / 4.0, {.min = 0.0, .max = cutoff_deg});
   const auto radians = [](double degrees) { return float(degrees * std::numbers::pi / 180.0); };
   parts.lights.push_back(std::make_shared<SpotLight>(
-      node.transform("to_world"), node.colour("intensity", 1.0, ColourUse::kEmission),
+      context.to_world(node), node.colour("intensity", 1.0, ColourUse::kEmission),
       radians(cutoff_deg), radians(beam_deg)));
 }
 

@@ -115,6 +115,7 @@ MediumPtr build_heterogeneous(const SceneNode& node, BuildContext& context) {
   const float scale = float(node.number("scale", 1.0, kNonNegative));
   accept_sampling_hints(node, context);
   const AnyGrid density = as_grid(sigma_t);
+  context.placed.extend(world_bounds(density));
   if (!std::isfinite(largest_value(density) * scale)) {
     node.fail(fmt::format("sigma_t times scale of {} is beyond floating point", node.label()));
   }

@@ -150,8 +150,8 @@ ClipRange clip_range(const SceneNode& node) {
 }
 
 // Cameras with a field of view are moved, turned and mirrored, but not scaled.
-glm::dmat4 rigid_transform(const SceneNode& node) {
-  const auto s = as_similarity(node.transform("to_world"));
+glm::dmat4 rigid_transform(const SceneNode& node, const BuildContext& context) {
+  const auto s = as_similarity(context.to_world(node));
   constexpr double kTolerance = 1e-3;
   if (!s || std::abs(s->scale - 1.0) > kTolerance) {
     fail_at(node.position("to_world"),
@@ -162,8 +162,8 @@ glm::dmat4 rigid_transform(const SceneNode& node) {
   return m;
 }
 
-PerspectiveView view(const SceneNode& node, double aspect) {
-  return {.to_world = rigid_transform(node),
+PerspectiveView view(const SceneNode& node, double aspect, const BuildContext& context) {
+  return {.to_world = rigid_transform(node, context),
           .x_fov = x_fov(node, aspect),
           .aspect = aspect,
           .clip = clip_range(node),
@@ -175,19 +175,19 @@ using CameraPtr = std::shared_ptr<const Camera>;
 
 CameraPtr build_perspective(const SceneNode& node, double aspect, BuildContext& context) {
   context.accept(node, {"focus_distance"});
-  return std::make_shared<PerspectiveCamera>(view(node, aspect));
+  return std::make_shared<PerspectiveCamera>(view(node, aspect, context));
 }
 
-CameraPtr build_thin_lens(const SceneNode& node, double aspect, BuildContext& /*context*/) {
+CameraPtr build_thin_lens(const SceneNode& node, double aspect, BuildContext& context) {
   node.require("aperture_radius", "radius of the lens in scene units");
-  const PerspectiveView v = view(node, aspect);
+  const PerspectiveView v = view(node, aspect, context);
   return std::make_shared<ThinLensCamera>(v, node.number("aperture_radius", 0.0, kNonNegative),
                                           node.number("focus_distance", v.clip.far, kPositive));
 }
 
 CameraPtr build_orthographic(const SceneNode& node, double aspect, BuildContext& context) {
   context.accept(node, {"focus_distance"});
-  return std::make_shared<OrthographicCamera>(node.transform("to_world"), aspect, clip_range(node));
+  return std::make_shared<OrthographicCamera>(context.to_world(node), aspect, clip_range(node));
 }
 
 constexpr Plugin<CameraPtr (*)(const SceneNode&, double, BuildContext&)> kSensors[] = {

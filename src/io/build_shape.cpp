@@ -18,16 +18,16 @@ namespace {
 
 using ShapePtr = std::shared_ptr<const Shape>;
 
-Similarity similarity(const SceneNode& node) {
-  if (const auto s = as_similarity(node.transform("to_world"))) return *s;
+Similarity similarity(const SceneNode& node, const BuildContext& context) {
+  if (const auto s = as_similarity(context.to_world(node))) return *s;
   fail_at(node.position("to_world"),
           fmt::format("to_world of {} must move, turn, mirror and scale all axes alike; use an obj "
                       "or ply mesh for other forms",
                       node.label()));
 }
 
-ShapePtr build_sphere(const SceneNode& node) {
-  const Similarity to_world = similarity(node);
+ShapePtr build_sphere(const SceneNode& node, const BuildContext& context) {
+  const Similarity to_world = similarity(node, context);
   const glm::dvec3 center = node.vec3("center", glm::dvec3(0.0));
   const double radius = node.number("radius", 1.0, kPositive) * to_world.scale;
   return std::make_shared<Sphere>(
@@ -35,39 +35,42 @@ ShapePtr build_sphere(const SceneNode& node) {
       node.boolean("flip_normals", false), glm::mat3(to_world.rotation));
 }
 
-ShapePtr build_cylinder(const SceneNode& node) {
+ShapePtr build_cylinder(const SceneNode& node, const BuildContext& context) {
   const glm::dvec3 p0 = node.vec3("p0", glm::dvec3(0.0));
   const glm::dvec3 p1 = node.vec3("p1", glm::dvec3(0.0, 0.0, 1.0));
   if (p0 == p1) node.fail(fmt::format("p0 and p1 of {} are the same point", node.label()));
-  return std::make_shared<Cylinder>(Vec3(p0), Vec3(p1),
-                                    float(node.number("radius", 1.0, kPositive)), similarity(node),
+  Similarity from_p0 = similarity(node, context);
+  from_p0.offset += from_p0.scale * (from_p0.rotation * p0);
+  return std::make_shared<Cylinder>(Vec3(0.0f), Vec3(p1 - p0),
+                                    float(node.number("radius", 1.0, kPositive)), from_p0,
                                     node.boolean("flip_normals", false));
 }
 
 template <class Patch>
-ShapePtr build_patch(const SceneNode& node) {
-  return std::make_shared<Patch>(node.transform("to_world"), node.boolean("flip_normals", false));
+ShapePtr build_patch(const SceneNode& node, const BuildContext& context) {
+  return std::make_shared<Patch>(context.to_world(node), node.boolean("flip_normals", false));
 }
 
-ShapePtr build_mesh(const SceneNode& node, MeshData mesh, bool flips_v) {
+ShapePtr build_mesh(const SceneNode& node, MeshData mesh, bool flips_v,
+                    const BuildContext& context) {
   if (node.boolean("flip_tex_coords", flips_v)) {
     for (Vec2& uv : mesh.uvs) uv.y = 1.0f - uv.y;
   }
-  return std::make_shared<TriangleMesh>(std::move(mesh), node.transform("to_world"),
+  return std::make_shared<TriangleMesh>(std::move(mesh), context.to_world(node),
                                         node.boolean("face_normals", false),
                                         node.boolean("flip_normals", false));
 }
 
 // Files of either kind have v = 0 at the bottom or at the top of a texture; these are the habits
 // that Mitsuba assumes.
-ShapePtr build_obj(const SceneNode& node) {
-  return build_mesh(node, read_obj(node.file("filename")), true);
+ShapePtr build_obj(const SceneNode& node, const BuildContext& context) {
+  return build_mesh(node, read_obj(node.file("filename")), true, context);
 }
-ShapePtr build_ply(const SceneNode& node) {
-  return build_mesh(node, read_ply(node.file("filename")), false);
+ShapePtr build_ply(const SceneNode& node, const BuildContext& context) {
+  return build_mesh(node, read_ply(node.file("filename")), false, context);
 }
 
-constexpr Plugin<ShapePtr (*)(const SceneNode&)> kShapes[] = {
+constexpr Plugin<ShapePtr (*)(const SceneNode&, const BuildContext&)> kShapes[] = {
     {"obj", build_obj},          {"ply", build_ply},
     {"sphere", build_sphere},    {"rectangle", build_patch<Rectangle>},
     {"cube", build_patch<Cube>}, {"disk", build_patch<Disk>},
@@ -108,7 +111,8 @@ Surface build_surface(const SceneNode& node, BuildContext& context) {
   const SceneNode* bsdf = node.only_child("bsdf");
   surface.bsdf = bsdf != nullptr ? build_bsdf(*bsdf, context) : default_bsdf(node, surface);
   context.accept(node, {"silhouette_sampling_weight"});
-  surface.shape = find_plugin(node, kShapes)(node);
+  surface.shape = find_plugin(node, kShapes)(node, context);
+  context.placed.extend(surface.shape->bounds());
   node.finish();
   return surface;
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/box.h"
 #include "io/scene_file.h"
 #include "io/scene_node.h"
 #include "material/bsdf.h"
@@ -21,11 +22,15 @@ namespace brume {
 struct BuildContext {
   Notices& notices;
   TrackingSettings tracking{};
+  glm::dvec3 origin{0.0};  // where rendering has its origin, as the file counts [unit]
+  Box3 placed{};           // around shapes and volumes, counted from `origin` [unit]
   std::map<const SceneNode*, std::shared_ptr<const Bsdf>> bsdfs{};
   std::map<const SceneNode*, std::shared_ptr<const Texture>> textures{};
   std::map<const SceneNode*, std::shared_ptr<const Medium>> media{};
   std::vector<std::string> without_effect{};  // parameters that brume accepts and does not need
 
+  /// The parameter of this name of something that has a place, counted from `origin`.
+  glm::dmat4 to_world(const SceneNode& node) const;
   /// Accepts parameters of Mitsuba that change nothing here, and notes those that are given.
   void accept(const SceneNode& node, std::initializer_list<std::string_view> names);
 };

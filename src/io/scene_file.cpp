@@ -10,6 +10,7 @@
 #include "io/nearest_name.h"
 #include "io/scene_builder.h"
 #include "io/scene_document.h"
+#include "io/transform.h"
 
 namespace brume {
 namespace {
@@ -113,7 +114,45 @@ void check_camera_medium(const SceneNode& sensor_node, const SensorSettings& sen
       fmt::format("{}: {} (not all of them agree)", sensor.medium_at.to_string(), message));
 }
 
+/// Where floats count from when what is placed lies so far from the origin of the file that they
+/// lose more than four bits there; nothing when that origin will do.
+std::optional<glm::dvec3> nearer_origin(const Box3& placed) {
+  if (placed.empty()) return std::nullopt;
+  const Vec3 center = placed.center(), away = glm::abs(center), size = placed.size();
+  constexpr float kFar = 16.0f;  // in sizes
+  if (std::max({away.x, away.y, away.z}) <= kFar * std::max({size.x, size.y, size.z}))
+    return std::nullopt;
+  return glm::dvec3(center);
+}
+
+struct World {
+  SceneParts parts;
+  SensorSettings sensor;
+};
+
+World build_world(const SceneDocument& document, const SceneNode& sensor, BuildContext& context,
+                  const std::optional<glm::ivec2>& size) {
+  const SceneNode& root = *document.root;
+  World world;
+  // Settings first: they are checked at once, while media and meshes may take a while to load.
+  world.sensor = build_sensor(sensor, context, size);
+  for (const SceneNode::Child& child : root.children_of("emitter")) {
+    build_emitter(*child.node, context, world.parts);
+  }
+  for (const SceneNode::Child& child : root.children_of("shape")) {
+    world.parts.surfaces.push_back(build_surface(*child.node, context));
+  }
+  if (const SceneNode* medium = world_medium_of(document, context.notices)) {
+    world.parts.world_medium = build_medium(*medium, context);
+  }
+  return world;
+}
+
 }  // namespace
+
+glm::dmat4 BuildContext::to_world(const SceneNode& node) const {
+  return translation(-origin) * node.transform("to_world");
+}
 
 void BuildContext::accept(const SceneNode& node, std::initializer_list<std::string_view> names) {
   for (const std::string_view name : names) {
@@ -139,7 +178,6 @@ LoadedScene load_scene(const std::filesystem::path& path, const Definitions& def
   BuildContext context{.notices = notices, .tracking = media_settings(settings)};
   check_references(root);
 
-  // Settings first: they are checked at once, while media and meshes may take a while to load.
   IntegratorSettings integrator;
   if (const SceneNode* node = root.only_child("integrator")) {
     integrator = build_integrator(*node, context);
@@ -147,33 +185,31 @@ LoadedScene load_scene(const std::filesystem::path& path, const Definitions& def
   integrator.path.lighting = settings.lighting;
   integrator.path.approximations = settings.approximations;
   const SceneNode& sensor_node = sensor_of(root, notices);
-  const SensorSettings sensor = build_sensor(sensor_node, context, size);
-
-  SceneParts parts;
-  for (const SceneNode::Child& child : root.children_of("emitter")) {
-    build_emitter(*child.node, context, parts);
-  }
-  for (const SceneNode::Child& child : root.children_of("shape")) {
-    parts.surfaces.push_back(build_surface(*child.node, context));
-  }
-  if (const SceneNode* world = world_medium_of(document, notices)) {
-    parts.world_medium = build_medium(*world, context);
+  World world = build_world(document, sensor_node, context, size);
+  if (const auto origin = nearer_origin(context.placed)) {
+    // All again, from the file's doubles, as floats have lost digits already.
+    world = {};
+    context.media.clear();
+    Notices given_already;
+    BuildContext moved{.notices = given_already, .tracking = context.tracking, .origin = *origin};
+    world = build_world(document, sensor_node, moved, size);
+    context.media = std::move(moved.media);
   }
   note_unused(document, notices);
   root.finish();
 
-  auto scene = std::make_unique<const Scene>(std::move(parts));
-  check_camera_medium(sensor_node, sensor, *scene, context);
+  auto scene = std::make_unique<const Scene>(std::move(world.parts));
+  check_camera_medium(sensor_node, world.sensor, *scene, context);
   if (!context.without_effect.empty()) {
     notices.push_back(
         fmt::format("accepted without effect: {}", fmt::join(context.without_effect, ", ")));
   }
   return {.scene = std::move(scene),
-          .camera = sensor.camera,
-          .film = sensor.film,
+          .camera = world.sensor.camera,
+          .film = world.sensor.film,
           .path = integrator.path,
           .aovs = std::move(integrator.aovs),
-          .sample_count = sensor.sample_count};
+          .sample_count = world.sensor.sample_count};
 }
 
 }  // namespace brume

@@ -22,9 +22,9 @@ SceneVolume load(const VolumeRequest& request, BuildContext& context) {
           .source = request.path};
 }
 
-SceneVolume constant_volume(const SceneNode& node, ColourUse use, BuildContext& /*context*/) {
+SceneVolume constant_volume(const SceneNode& node, ColourUse use, BuildContext& context) {
   return {.constant = node.colour("value", 1.0, use),
-          .to_world = node.transform("to_world"),
+          .to_world = context.to_world(node),
           .source = node.label()};
 }
 
@@ -50,7 +50,7 @@ SceneVolume grid_volume(const SceneNode& node, ColourUse /*use*/, BuildContext& 
                                       : wrap == "mirror" ? Wrap::kMirror
                                                          : Wrap::kClamp,
                               .use_grid_bbox = node.boolean("use_grid_bbox", node.old_dialect),
-                              .to_world = node.transform("to_world")};
+                              .to_world = context.to_world(node)};
   return load(request, context);
 }
 
@@ -60,7 +60,7 @@ SceneVolume vdb_volume(const SceneNode& node, ColourUse /*use*/, BuildContext& c
   const VolumeRequest request{.path = path.string(),
                               .grid = node.text("grid", ""),
                               .interpolation = interpolation(node),
-                              .to_world = node.transform("to_world")};
+                              .to_world = context.to_world(node)};
   return load(request, context);
 }
 
@@ -83,6 +83,20 @@ SceneVolume volume_parameter(const SceneNode& medium, std::string_view name, dou
 
 AnyGrid as_grid(const SceneVolume& volume) {
   return volume.constant ? make_constant_grid(*volume.constant, volume.to_world) : volume.grid;
+}
+
+Box3 world_bounds(const AnyGrid& grid) {
+  return std::visit(
+      [](const auto& g) {
+        const glm::dvec3 corners[2] = {glm::dvec3(g->box().min), glm::dvec3(g->box().max)};
+        Box3 bounds;
+        for (int i = 0; i < 8; ++i) {
+          const glm::dvec4 corner(corners[i & 1].x, corners[i >> 1 & 1].y, corners[i >> 2].z, 1.0);
+          bounds.extend(Vec3(glm::dvec3(g->world_from_index() * corner)));
+        }
+        return bounds;
+      },
+      grid);
 }
 
 float largest_value(const AnyGrid& grid) {

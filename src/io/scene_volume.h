@@ -26,6 +26,9 @@ SceneVolume volume_parameter(const SceneNode& medium, std::string_view name, dou
 /// The volume as a grid, a constant filling its cube.
 AnyGrid as_grid(const SceneVolume& volume);
 
+/// The box around what the grid defines [unit].
+Box3 world_bounds(const AnyGrid& grid);
+
 /// Largest value of any channel.
 float largest_value(const AnyGrid& grid);
 

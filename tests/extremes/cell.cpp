@@ -48,7 +48,7 @@ std::vector<Cell> all_cells() {
   std::vector<Cell> cells;
   for (const auto& part :
        {cells_of_coefficients(), cells_of_phase(), cells_of_size(), cells_of_grids(),
-        cells_of_views(), cells_of_lights(), cells_of_boundaries()})
+        cells_of_views(), cells_of_lights(), cells_of_boundaries(), cells_of_coincidences()})
     cells.insert(cells.end(), part.begin(), part.end());
   return cells;
 }

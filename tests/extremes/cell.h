@@ -55,5 +55,6 @@ std::vector<Cell> cells_of_grids();
 std::vector<Cell> cells_of_views();
 std::vector<Cell> cells_of_lights();
 std::vector<Cell> cells_of_boundaries();
+std::vector<Cell> cells_of_coincidences();
 
 }  // namespace brume::test

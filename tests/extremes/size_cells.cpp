@@ -39,6 +39,13 @@ std::string size_scene(double size, const glm::dvec3& center) {
   return scene(body + environment(0.25), 12);
 }
 
+namespace {
+
+/// Light from a slab of optical thickness 2 in a uniform environment (adding-doubling).
+constexpr double kIsotropicSlab = 0.361649 + 0.356501;
+
+}  // namespace
+
 std::vector<Cell> cells_of_size() {
   std::vector<Cell> cells;
   for (const int exponent : {-15, -9, -6, -3, 0, 3, 6, 9, 12, 15}) {
@@ -50,13 +57,12 @@ std::vector<Cell> cells_of_size() {
                      .like = size_scene(1.0, {0, 0, 0}),
                      .replications = 1024});
   }
-  for (const double offset : {1e1, 1e2, 1e3, 1e4, 1e5}) {
+  for (const double offset : {1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7}) {
     cells.push_back({.axis = "offset from the origin, in sizes",
                      .at = offset,
                      .name = fmt::format("Offset{:.0f}", offset),
                      .scene = size_scene(1.0, offset * glm::dvec3(1.0, -0.7, 0.4)),
                      .like = size_scene(1.0, {0, 0, 0}),
-                     .rounding = 1e-5 + 1e-7 * offset,
                      .replications = 1024});
     const glm::dvec3 center = offset * glm::dvec3(1.0, -0.7, 0.4);
     cells.push_back(
@@ -76,7 +82,33 @@ std::vector<Cell> cells_of_size() {
                         environment()),
          .central_ray = true,
          .want = glm::dvec3(std::exp(-2.0)),
-         .rounding = 1e-5 + 2.4e-7 * offset,
+         .replications = 1});
+    const glm::dvec3 lo = center - glm::dvec3(50, 50, 0), hi = center + glm::dvec3(50, 50, 1);
+    cells.push_back(
+        {.axis = "offset from the origin, slab of albedo 0.9",
+         .at = offset,
+         .name = fmt::format("OffsetSlab{:.0f}", offset),
+         .scene = scene(
+             camera({.origin = center + glm::dvec3(0, 0, -3), .target = center, .fov_deg = 1.0}) +
+             cube(lo, hi, kNull + homogeneous(2, 0.9, 0, "interior")) + environment()),
+         .want = glm::dvec3(kIsotropicSlab),
+         .replications = 1024});
+  }
+
+  // Where a wide scene holds a body far from its middle, floats lose its digits: a ray leaves a
+  // surface by up to 3.5 times their relative precision 2^-24.
+  for (const double offset : {1e1, 1e2, 1e3, 1e4}) {
+    const glm::dvec3 center = offset * glm::dvec3(1.0, 0.7, 0.4);
+    cells.push_back(
+        {.axis = "offset from the middle of a wide scene, Beer-Lambert",
+         .at = offset,
+         .name = fmt::format("FarInWideScene{:.0f}", offset),
+         .scene = scene(camera({.origin = center + glm::dvec3(0, 0, -3), .target = center}) +
+                        cube(center - 1.0, center + 1.0, kNull + homogeneous(1, 0, 0, "interior")) +
+                        sphere({0, -1e5, 0}, 1e5, "") + environment()),
+         .central_ray = true,
+         .want = glm::dvec3(std::exp(-2.0)),
+         .rounding = 1e-5 + 3.5 * 0x1p-24 * offset,
          .replications = 1});
   }
   return cells;

@@ -414,6 +414,41 @@ TEST_F(SceneFeatures, AnOldSpectrumOfOneNumberIsGreyLight) {
   expect_near(loaded.scene->lights().environment_radiance({0, 0, 1}), Rgb(3.0f));
 }
 
+// --- Far from the origin
+
+TEST_F(SceneFeatures, EverythingKeepsItsPlaceAroundAnOriginNearby) {
+  // Floats there are one to two units apart.
+  const LoadedScene loaded = load(R"(<scene version="3.0.0">
+    <sensor type="perspective"><transform name="to_world">
+      <lookat origin="1e7, 2e7, 29999996.5" target="1e7, 2e7, 3e7" up="0, 1, 0"/>
+    </transform></sensor>
+    <shape type="sphere"><point name="center" value="1e7, 2e7, 3e7"/><bsdf type="null"/>
+      <medium name="interior" type="heterogeneous">
+        <volume name="sigma_t" type="constvolume"><float name="value" value="1"/>
+          <transform name="to_world"><translate value="1e7, 2e7, 3e7"/></transform></volume>
+      </medium></shape>
+    <shape type="cylinder"><point name="p0" value="1e7, 2e7, 30000004"/>
+      <point name="p1" value="1e7, 20000001, 30000004"/></shape>
+    <emitter type="point"><point name="position" value="1e7, 20000007, 3e7"/></emitter>
+    <emitter type="spot"><transform name="to_world"><translate value="1e7, 2e7, 30000007"/>
+      </transform></emitter></scene>)");
+  const Ray ray = loaded.camera->ray(Vec2(0.5f), Vec2(0.5f)).ray;
+  const auto front = loaded.scene->intersect(ray, kInfinity);
+  ASSERT_TRUE(front.has_value());
+  EXPECT_NEAR(front->t, 2.5 - 0.01, 1e-6);  // the near clip
+  const Vec3 center = front->p + ray.d;
+  EXPECT_NEAR(loaded.scene->intersect({center + Vec3(0.0f, 0.5f, 0.0f), ray.d}, 2.0f)->t,
+              std::sqrt(0.75), 1e-6);
+  EXPECT_NEAR(loaded.scene->intersect({center + Vec3(0.0f, 0.5f, 2.0f), ray.d}, kInfinity)->t, 1.0,
+              1e-5);
+  expect_near(transmittance_at(loaded, center + Vec3(-0.5f, 0.25f, 0.25f)), Rgb(std::exp(-0.5f)));
+  for (std::size_t light = 0; light < 2; ++light) {
+    const auto pivot = loaded.scene->lights().light(light).pivot();
+    ASSERT_TRUE(pivot.has_value());
+    EXPECT_NEAR(glm::distance(pivot->center, center), 7.0, 1e-5);
+  }
+}
+
 // --- Files beside the source tree and in it
 
 TEST(SampleScenes, EveryOneLoads) {
