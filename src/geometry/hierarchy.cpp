@@ -43,12 +43,12 @@ struct Geometry {
 /// Embree knows the ray in float only.
 struct Query {
   RTCIntersectContext context;  // first, so that its address is that of the query
-  PreciseRay ray;               // near the items
+  const PreciseRay& ray;        // near the items
   double t_max;                 // crossings count in (0, t_max] along `ray` [unit]
-  Hierarchy::Cluster found;
+  Hierarchy::Cluster* found;    // null where any crossing will do
 
-  Query(const PreciseRay& r, double t, const TraversalSpace& space)
-      : ray(r), t_max(t), found(space.coordinate_rounding()) {
+  Query(const PreciseRay& r, double t, Hierarchy::Cluster* cluster)
+      : ray(r), t_max(t), found(cluster) {
     rtcInitIntersectContext(&context);
   }
 };
@@ -81,8 +81,8 @@ void intersect_item(const RTCIntersectFunctionNArguments* args) {
   const std::optional<Crossing> found =
       geometry.items.intersect(args->primID, query.ray, query.t_max);
   if (!found) return;
-  query.found.add({args->primID, *found});
-  query.t_max = std::min(query.t_max, query.found.reach());
+  query.found->add({args->primID, *found});
+  query.t_max = std::min(query.t_max, query.found->reach());
   reinterpret_cast<RTCRayHit*>(args->rayhit)->ray.tfar = geometry.space.distance(query.t_max);
 }
 
@@ -119,11 +119,14 @@ RTCRay embree_ray(const Vec3& o, const Vec3d& d, float t_far) {
 
 struct Hierarchy::Impl {
   Geometry geometry;
+  double cluster_width;  // [unit]
   std::shared_ptr<RTCDeviceTy> device = shared_device();
   std::unique_ptr<RTCSceneTy, decltype(&rtcReleaseScene)> scene{rtcNewScene(device.get()),
                                                                 rtcReleaseScene};
 
-  explicit Impl(const Items& items) : geometry{items, TraversalSpace(bounds_of(items))} {
+  Impl(const Items& items, Behind behind)
+      : geometry{items, TraversalSpace(bounds_of(items))},
+        cluster_width(behind == Behind::kFind ? geometry.space.coordinate_rounding() : 0.0) {
     const RTCGeometry user = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER);
     rtcSetGeometryUserPrimitiveCount(user, items.count());
     rtcSetGeometryUserData(user, &geometry);
@@ -140,6 +143,10 @@ struct Hierarchy::Impl {
 };
 
 void Hierarchy::Cluster::add(const ItemCrossing& added) {
+  if (size_ == 0) {
+    crossings_[size_++] = added;
+    return;
+  }
   const auto comes_before = [](const ItemCrossing& a, const ItemCrossing& b) {
     return std::tie(a.crossing.t, a.item) < std::tie(b.crossing.t, b.item);
   };
@@ -152,27 +159,32 @@ void Hierarchy::Cluster::add(const ItemCrossing& added) {
   while (crossings_[size_ - 1].crossing.t > reach()) --size_;
 }
 
-Hierarchy::Hierarchy(const Items& items) : impl_(std::make_unique<const Impl>(items)) {}
+Hierarchy::Hierarchy(const Items& items, Behind behind)
+    : impl_(std::make_unique<const Impl>(items, behind)) {}
 Hierarchy::~Hierarchy() = default;
 
 std::optional<Hierarchy::Found> Hierarchy::nearest(const PreciseRay& ray, double t_max) const {
+  std::optional<Found> found;
   const TraversalSpace& space = impl_->geometry.space;
   const auto local = space.ray(ray);
-  if (!local || !(local->start < t_max)) return std::nullopt;
-  Query query({.o = ray.at(local->start), .d = ray.d}, t_max - local->start, space);
+  if (!local || !(local->start < t_max)) return found;
+  found.emplace(PreciseRay{.o = ray.at(local->start), .d = ray.d}, local->start,
+                impl_->cluster_width);
+  Query query(found->ray, t_max - local->start, &found->crossings);
   RTCRayHit embree{};
   embree.ray = embree_ray(local->o, ray.d, space.distance(query.t_max));
   embree.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(impl_->scene.get(), &query.context, &embree);
-  if (query.found.empty()) return std::nullopt;
-  return Found{.ray = query.ray, .start = local->start, .crossings = query.found};
+  if (found->crossings.empty()) found.reset();
+  return found;
 }
 
 bool Hierarchy::is_occluded(const PreciseRay& ray, double t_max) const {
   const TraversalSpace& space = impl_->geometry.space;
   const auto local = space.ray(ray);
   if (!local || !(local->start < t_max)) return false;
-  Query query({.o = ray.at(local->start), .d = ray.d}, t_max - local->start, space);
+  const PreciseRay near{.o = ray.at(local->start), .d = ray.d};
+  Query query(near, t_max - local->start, nullptr);
   RTCRay embree = embree_ray(local->o, ray.d, space.distance(query.t_max));
   rtcOccluded1(impl_->scene.get(), &query.context, &embree);
   return embree.tfar < 0.0f;

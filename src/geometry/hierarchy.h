@@ -40,8 +40,10 @@ class Hierarchy {
     virtual bool occludes(std::uint32_t item, const PreciseRay& ray, double t_max) const = 0;
   };
 
+  /// Whether to look for crossings right behind the nearest.
+  enum class Behind { kIgnore, kFind };
   /// `items` must outlive the hierarchy.
-  explicit Hierarchy(const Items& items);
+  Hierarchy(const Items& items, Behind behind);
   ~Hierarchy();
 
   struct ItemCrossing {
@@ -74,8 +76,11 @@ class Hierarchy {
     PreciseRay ray;     // from where the given one comes near: there, differences have more digits
     double start;       // distance of its origin from the given one [unit]
     Cluster crossings;  // along `ray`, of at least one item
+
+    Found(const PreciseRay& r, double s, double width) : ray(r), start(s), crossings(width) {}
   };
-  /// First crossing for t in (0, t_max], with those that are all but at the same place.
+  /// First crossing for t in (0, t_max], with those that are all but at the same place where they
+  /// are looked for.
   std::optional<Found> nearest(const PreciseRay& ray, double t_max) const;
   bool is_occluded(const PreciseRay& ray, double t_max) const;
 

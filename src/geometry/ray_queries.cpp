@@ -21,7 +21,7 @@ PreciseRay precise(const Ray& ray) {
 class RayQueries::Impl final : public Hierarchy::Items {
  public:
   explicit Impl(std::span<const std::shared_ptr<const Shape>> shapes)
-      : shapes_(shapes.begin(), shapes.end()), hierarchy_(*this) {}
+      : shapes_(shapes.begin(), shapes.end()), hierarchy_(*this, Hierarchy::Behind::kFind) {}
 
   std::uint32_t count() const override { return static_cast<std::uint32_t>(shapes_.size()); }
   Box3 bounds(std::uint32_t item) const override { return shapes_[item]->bounds(); }
@@ -82,9 +82,10 @@ RayQueries::~RayQueries() = default;
 std::optional<Hit> RayQueries::intersect(const Ray& ray, float t_max) const {
   const auto found = impl_->hierarchy().nearest(precise(ray), inclusive(t_max));
   if (!found) return std::nullopt;
-  const Hit nearest = impl_->hit(*found, found->crossings.nearest());
+  std::optional<Hit> hit(impl_->hit(*found, found->crossings.nearest()));
   const bool is_alone = found->crossings.begin() + 1 == found->crossings.end();
-  return is_alone ? nearest : impl_->first_of_coincident(*found, nearest);
+  if (!is_alone) *hit = impl_->first_of_coincident(*found, *hit);
+  return hit;
 }
 
 bool RayQueries::is_occluded(const Ray& ray, float t_max) const {

@@ -75,7 +75,7 @@ TriangleMesh::TriangleMesh(MeshData data, const glm::dmat4& to_world, bool face_
     bounds_.extend(triangles_.bounds(i));
     area_ += 0.5 * glm::length(corners(i).cross());
   }
-  hierarchy_.emplace(triangles_);
+  hierarchy_.emplace(triangles_, Hierarchy::Behind::kIgnore);
 }
 
 TriangleMesh::Corners TriangleMesh::corners(std::uint32_t triangle) const {
