@@ -25,7 +25,7 @@ LIMIT = 4.5  # standard errors that the test allows
 class Row:
     def __init__(self, fields):
         self.axis, self.name, self.known = fields["axis"], fields["name"], fields["known"]
-        for key in ("at", "want", "mean", "standard_error", "samples", "bad", "violations", "seconds"):
+        for key in ("at", "want", "mean", "standard_error", "samples", "bad", "violations"):
             setattr(self, key, float(fields[key]))
 
     def has_error(self):
@@ -38,17 +38,23 @@ class Row:
         return self.standard_error / self.want
 
 
-def cells_of(path):
-    """One row for each cell: that of the channel furthest from what is known."""
-    channels = defaultdict(list)
+def rows_of(path):
+    """The rows of each cell, one a channel."""
+    cells = defaultdict(list)
     with open(path, newline="") as file:
         for fields in csv.DictReader(file):
-            channels[fields["name"]].append(Row(fields))
-    return [max(rows, key=lambda r: r.error() if r.has_error() else -1) for rows in channels.values()]
+            cells[fields["name"]].append(Row(fields))
+    return list(cells.values())
+
+
+def furthest(rows):
+    """The channel furthest from what is known."""
+    return max(rows, key=lambda r: r.error() if r.has_error() else -1)
 
 
 def number(at):
-    return f"{at:.3g}".replace("e+0", "e").replace("e-0", "e-").replace("e+", "e")
+    digits = 3 if abs(at) >= 1.5 or abs(at) < 0.5 else 7
+    return f"{at:.{digits}g}".replace("e+0", "e").replace("e-0", "e-").replace("e+", "e")
 
 
 def panel(axis, rows, x0, y0):
@@ -121,25 +127,27 @@ def draw(cells, path):
 
 
 def summary(cells):
-    known = [r for r in cells if r.has_error()]
+    rows = [row for channels in cells for row in channels]
+    first = [channels[0] for channels in cells]
+    known = [r for r in rows if r.has_error()]
     z = [(r.mean - r.want) / r.standard_error for r in known if r.spread() > 1e-4]
-    exact = [r for r in known if r.spread() <= 1e-6]
-    furthest = max(exact, key=Row.error)
-    return (f"| cells | {len(cells)}, of them {len(known)} with a known radiance |\n|---|---|\n"
-            f"| samples | {sum(r.samples for r in cells):.3g} |\n"
-            f"| samples that are NaN, infinite or negative | {sum(r.bad for r in cells):.0f} |\n"
-            f"| violated majorants | {sum(r.violations for r in cells):.0f} |\n"
-            f"| largest distance from the known, in standard errors | {max(map(abs, z)):.2f} "
-            f"of {len(z)} cells with a standard error above 1e-4 |\n"
-            f"| largest relative error where nothing is random | {furthest.error():.1e}: "
-            f"{furthest.axis} at {number(furthest.at)} |\n"
-            f"| seconds, one thread | {sum(r.seconds for r in cells):.0f} |\n")
+    exact = max((r for r in known if r.spread() <= 1e-6), key=Row.error)
+    return (f"| cells | {len(cells)}, of them {sum(r.has_error() for r in first)} with a known "
+            "radiance |\n|---|---|\n"
+            f"| samples | {sum(r.samples for r in first) / 1e6:.1f} million |\n"
+            f"| samples that are NaN, infinite or negative | {sum(r.bad for r in first):.0f} |\n"
+            f"| violated majorants | {sum(r.violations for r in first):.0f} |\n"
+            f"| distance from the known, in standard errors, of {len(z)} channels with a standard "
+            f"error above 1e-4 | mean square {sum(v * v for v in z) / len(z):.2f}, largest "
+            f"{max(map(abs, z)):.2f} |\n"
+            f"| largest relative error where nothing is random | {exact.error():.1e}: "
+            f"{exact.axis}, at {number(exact.at)} |\n")
 
 
 def main():
     table, picture, page = sys.argv[1:]
-    cells = cells_of(table)
-    draw(cells, picture)
+    cells = rows_of(table)
+    draw([furthest(rows) for rows in cells], picture)
     with open(page) as file:
         text = file.read()
     before, rest = text.split(BEGIN, 1)

@@ -6,6 +6,12 @@
 namespace brume {
 namespace {
 
+/// Coordinates are floats, whose squares are far from the ends of double: std::hypot, which guards
+/// against them, took a tenth of the time of a room lit by one rectangle.
+double hypotenuse(double a, double b) {
+  return std::sqrt(a * a + b * b);
+}
+
 /// Unit normal of the plane through the point and an edge; it lies in the plane of z and one of
 /// the axes of the rectangle.
 struct EdgeNormal {
@@ -36,7 +42,7 @@ SphericalRectangle::SphericalRectangle(const Vec3d& from, const Vec3d& center, c
   if (!(z0_ < 0.0)) return;
 
   const auto normal = [this](double offset) {
-    const double length = std::hypot(offset, z0_);
+    const double length = hypotenuse(offset, z0_);
     return EdgeNormal{.z = offset / length, .in_plane = z0_ / length};
   };
   const EdgeNormal n0 = normal(-y0_), n1 = normal(x1_), n2 = normal(y1_), n3 = normal(-x0_);
@@ -51,12 +57,12 @@ Vec2d SphericalRectangle::sample(const Vec2d& u) const {
   // (section 4, listing 2).
   const double au = u.x * solid_angle_ + k_;
   const double fu = (std::cos(au) * b0_ - b1_) / std::sin(au);
-  const double cu = std::clamp(std::copysign(1.0 / std::hypot(fu, b0_), fu), -1.0, 1.0);
+  const double cu = std::clamp(std::copysign(1.0 / hypotenuse(fu, b0_), fu), -1.0, 1.0);
   const double xu = std::clamp(-cu * z0_ / std::sqrt(std::max(1.0 - cu * cu, 1e-300)), x0_, x1_);
 
   // y uniform in height on the unit sphere, along the meridian of x.
-  const double d = std::hypot(xu, z0_);
-  const double h0 = y0_ / std::hypot(d, y0_), h1 = y1_ / std::hypot(d, y1_);
+  const double d = hypotenuse(xu, z0_);
+  const double h0 = y0_ / hypotenuse(d, y0_), h1 = y1_ / hypotenuse(d, y1_);
   const double hv = h0 + u.y * (h1 - h0);
   const double yv = std::clamp(hv * d / std::sqrt(std::max(1.0 - hv * hv, 1e-300)), y0_, y1_);
   return {(xu - x0_) / half_a_ - 1.0, (yv - y0_) / half_b_ - 1.0};

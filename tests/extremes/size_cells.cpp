@@ -100,7 +100,7 @@ std::vector<Cell> cells_of_size() {
   for (const double offset : {1e1, 1e2, 1e3, 1e4}) {
     const glm::dvec3 center = offset * glm::dvec3(1.0, 0.7, 0.4);
     cells.push_back(
-        {.axis = "offset from the middle of a wide scene, Beer-Lambert",
+        {.axis = "offset in a wide scene, Beer-Lambert",
          .at = offset,
          .name = fmt::format("FarInWideScene{:.0f}", offset),
          .scene = scene(camera({.origin = center + glm::dvec3(0, 0, -3), .target = center}) +
