@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "film/film.h"
 
+#include <algorithm>
+#include <type_traits>
+
 #include "core/sampler.h"
 
 namespace brume {
@@ -13,6 +16,12 @@ constexpr std::uint32_t kMinReplications = 4;
 bool is_good(const CameraSample& sample) {
   return is_finite_and_non_negative(sample.L) && std::isfinite(sample.alpha) &&
          is_finite_and_non_negative(sample.albedo) && sample.depth >= 0.0f;
+}
+
+template <class T>
+void append_bytes(std::vector<T>& from, std::vector<std::span<unsigned char>>& to) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  to.emplace_back(reinterpret_cast<unsigned char*>(from.data()), from.size() * sizeof(T));
 }
 
 void lower_to(std::atomic<std::size_t>& value, std::size_t candidate) {
@@ -28,6 +37,7 @@ Film::Film(std::uint32_t width, std::uint32_t height, FilmLayers layers)
     : width_(width), height_(height), pixels_(std::size_t(width) * height) {
   if (layers.albedo) albedo_.assign(pixels_.size(), glm::dvec3(0.0));
   if (layers.depth) depth_.resize(pixels_.size());
+  if (layers.guide) guide_.resize(pixels_.size());
 }
 
 void Film::add(std::uint32_t x, std::uint32_t y, const CameraSample& sample) {
@@ -52,14 +62,27 @@ void Film::add(std::uint32_t x, std::uint32_t y, const CameraSample& sample) {
   } else {
     bad_count_.fetch_add(1, std::memory_order_relaxed);
     lower_to(first_bad_, i);
-    pixel.replication_spoiled = true;
+    pixel.replication_spoiled += 1;
   }
-  pixel.in_replication += 1;
-  if (pixel.in_replication == Sampler::kReplication) close_replication(pixel);
+  if (!guide_.empty() && pixel.drawn < Sampler::kReplication)
+    guide_[i].work += sample.work / float(Sampler::kReplication);
+  pixel.drawn += 1;
+  if (pixel.drawn % Sampler::kReplication != 0) return;
+  close_replication(pixel);
+  if (!guide_.empty()) note(pixel, guide_[i]);
+}
+
+void Film::note(const Pixel& pixel, PixelGuide& guide) {
+  const auto& lengths = PixelGuide::kReplications;
+  const auto found = std::find(lengths.begin(), lengths.end(), pixel.drawn / Sampler::kReplication);
+  if (found == lengths.end() || pixel.samples < 2) return;
+  const glm::dvec3 variance = squared_standard_error(pixel) * double(pixel.samples);
+  guide.variance[std::size_t(found - lengths.begin())] =
+      static_cast<float>(variance.r + variance.g + variance.b);
 }
 
 void Film::close_replication(Pixel& pixel) {
-  if (!pixel.replication_spoiled) {
+  if (pixel.replication_spoiled == 0) {
     const double n = pixel.replications;
     if (pixel.replications > 0) {
       const glm::dvec3 mean_before =
@@ -71,8 +94,7 @@ void Film::close_replication(Pixel& pixel) {
     pixel.replications += 1;
   }
   pixel.sum_before = pixel.sum;
-  pixel.in_replication = 0;
-  pixel.replication_spoiled = false;
+  pixel.replication_spoiled = 0;
 }
 
 Rgb Film::mean(std::uint32_t x, std::uint32_t y) const {
@@ -87,18 +109,20 @@ float Film::alpha(std::uint32_t x, std::uint32_t y) const {
 
 Rgb Film::standard_error(std::uint32_t x, std::uint32_t y) const {
   const Pixel& pixel = at(x, y);
-  if (pixel.samples < 2) return Rgb{kInfinity};
+  return pixel.samples < 2 ? Rgb{kInfinity} : Rgb(glm::sqrt(squared_standard_error(pixel)));
+}
+
+glm::dvec3 Film::squared_standard_error(const Pixel& pixel) {
   const double n = pixel.samples;
   const glm::dvec3 sample_variance = pixel.squares / (n - 1.0);
-  if (pixel.replications < kMinReplications) return Rgb(glm::sqrt(sample_variance / n));
+  if (pixel.replications < kMinReplications) return sample_variance / n;
 
   // Variances of independent sums add: those of whole replications, and the samples beyond them.
   const double replications = pixel.replications;
   const double size = Sampler::kReplication;
   const double loose = n - size * replications;
   const glm::dvec3 replication_variance = pixel.replication_squares / (replications - 1.0);
-  return Rgb(
-      glm::sqrt(size * size * replications * replication_variance + loose * sample_variance) / n);
+  return (size * size * replications * replication_variance + loose * sample_variance) / (n * n);
 }
 
 Rgb Film::albedo(std::uint32_t x, std::uint32_t y) const {
@@ -108,7 +132,7 @@ Rgb Film::albedo(std::uint32_t x, std::uint32_t y) const {
 
 float Film::depth(std::uint32_t x, std::uint32_t y) const {
   const Depth& depth = depth_[index(x, y)];
-  return depth.samples == 0 ? kInfinity : static_cast<float>(depth.sum / depth.samples);
+  return depth.samples == 0 ? kInfinity : static_cast<float>(depth.sum / double(depth.samples));
 }
 
 std::optional<BadSamples> Film::bad_samples() const {
@@ -116,6 +140,20 @@ std::optional<BadSamples> Film::bad_samples() const {
   return BadSamples{.count = bad_count_,
                     .x = static_cast<std::uint32_t>(first_bad_ % width_),
                     .y = static_cast<std::uint32_t>(first_bad_ / width_)};
+}
+
+void Film::set_bad_samples(const std::optional<BadSamples>& bad) {
+  bad_count_ = bad ? bad->count : 0;
+  first_bad_ = bad ? index(bad->x, bad->y) : SIZE_MAX;
+}
+
+std::vector<std::span<unsigned char>> Film::pixel_bytes() {
+  std::vector<std::span<unsigned char>> bytes;
+  append_bytes(pixels_, bytes);
+  append_bytes(albedo_, bytes);
+  append_bytes(depth_, bytes);
+  append_bytes(guide_, bytes);
+  return bytes;
 }
 
 }  // namespace brume

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cassert>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/vec.h"
@@ -16,6 +18,18 @@ namespace brume {
 struct FilmLayers {
   bool albedo = false;
   bool depth = false;
+  bool guide = false;  // what adaptive sampling is steered by; in no picture file
+};
+
+/// How noisy and how costly a pixel is. Each figure comes from a number of samples that was fixed
+/// beforehand, however many the pixel got in the end, so that what it steers cannot depend on what
+/// it steered before.
+struct PixelGuide {
+  /// Replications after which `variance` was taken.
+  static constexpr std::array<std::uint32_t, 9> kReplications{1, 2, 4, 8, 16, 32, 64, 128, 256};
+
+  std::array<float, kReplications.size()> variance{};  // of one sample, summed over channels
+  float work = 0.0f;  // of one sample, over the first replication; as in CameraSample
 };
 
 /// Samples that were NaN, infinite or negative. Any is a bug, so that the first is worth a look.
@@ -36,12 +50,16 @@ class Film {
 
   std::uint32_t width() const { return width_; }
   std::uint32_t height() const { return height_; }
-  FilmLayers layers() const { return {.albedo = !albedo_.empty(), .depth = !depth_.empty()}; }
+  FilmLayers layers() const {
+    return {.albedo = !albedo_.empty(), .depth = !depth_.empty(), .guide = !guide_.empty()};
+  }
 
   /// Adds the next sample of pixel (x, y), in order of sample index. A bad one counts for nothing
   /// but `bad_samples`.
   void add(std::uint32_t x, std::uint32_t y, const CameraSample& sample);
 
+  /// Number of samples added, bad ones too: the index of the next.
+  std::uint32_t drawn(std::uint32_t x, std::uint32_t y) const { return at(x, y).drawn; }
   /// Number of samples in the mean.
   std::uint32_t samples(std::uint32_t x, std::uint32_t y) const { return at(x, y).samples; }
   /// Mean radiance; black without samples.
@@ -58,8 +76,17 @@ class Film {
   /// layer.
   float depth(std::uint32_t x, std::uint32_t y) const;
 
+  /// What steers adaptive sampling; zero until the pixel has the replications. Requires the layer.
+  const PixelGuide& guide(std::uint32_t x, std::uint32_t y) const { return guide_[index(x, y)]; }
+
   /// Nothing when every sample was good.
   std::optional<BadSamples> bad_samples() const;
+  /// Puts the count of bad samples to what another film of this size had.
+  void set_bad_samples(const std::optional<BadSamples>& bad);
+
+  /// All that the pixels hold, as memory: another film of the same size and layers that is given
+  /// these bytes goes on as this one would. Bad samples' count is apart.
+  std::vector<std::span<unsigned char>> pixel_bytes();
 
  private:
   struct Pixel {
@@ -68,17 +95,19 @@ class Film {
     glm::dvec3 squares{0.0};              // of single samples' deviations from their mean
     glm::dvec3 replication_squares{0.0};  // of whole replications' deviations from their mean
     double alpha_sum = 0.0;
-    std::uint32_t samples = 0;       // good ones
-    std::uint32_t replications = 0;  // whole ones: all samples were good
-    std::uint8_t in_replication = 0;
-    bool replication_spoiled = false;
+    std::uint32_t samples = 0;              // good ones
+    std::uint32_t drawn = 0;                // bad ones too
+    std::uint32_t replications = 0;         // whole ones: all samples were good
+    std::uint32_t replication_spoiled = 0;  // by this many bad samples in the current one
   };
   struct Depth {
     double sum = 0.0;
-    std::uint32_t samples = 0;
+    std::uint64_t samples = 0;
   };
 
   static void close_replication(Pixel& pixel);
+  static glm::dvec3 squared_standard_error(const Pixel& pixel);
+  static void note(const Pixel& pixel, PixelGuide& guide);
 
   std::size_t index(std::uint32_t x, std::uint32_t y) const {
     assert(x < width_ && y < height_);
@@ -90,6 +119,7 @@ class Film {
   std::vector<Pixel> pixels_;       // [height][width]
   std::vector<glm::dvec3> albedo_;  // [height][width], sums; empty when not requested
   std::vector<Depth> depth_;        // [height][width]; empty when not requested
+  std::vector<PixelGuide> guide_;   // [height][width]; empty when not requested
   std::atomic<std::uint64_t> bad_count_{0};
   std::atomic<std::size_t> first_bad_{SIZE_MAX};
 };

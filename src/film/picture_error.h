@@ -7,13 +7,25 @@ namespace brume {
 
 class Film;
 
-/// How far a picture is from its converged self: the root mean square of the standard errors of
-/// all pixels and channels, over the mean radiance of the picture. It says nothing about bias.
+/// The relative RMS error of a picture, wherever brume speaks of one: the root mean square error
+/// of all pixels and channels over the mean radiance of the converged picture. Infinite for a black
+/// one, where nothing is relative to anything.
+double relative_rms(double mean_square_error, double mean_radiance);
+
+/// How far a picture is from its converged self, estimated from its own samples. It says nothing
+/// about bias.
 struct PictureError {
-  double relative_rms;  // 0.01 is one percent; infinite when a pixel has fewer than two samples
-  double upper_bound;   // `relative_rms` lies below it with a confidence of 95%
+  double relative_rms;  // 0.01 is one percent
+  double upper_bound;   // the true error lies below it with a confidence of 95%
 };
 
+/// Both are infinite while nothing is known: while a pixel has fewer than two samples, or all are
+/// black. Pixels all of whose samples were bad are left out.
+///
+/// The squared standard errors of the pixels add up to the squared error of the picture. What that
+/// sum may miss is bounded as for a weighted sum of rare events (Fay and Feuer 1997): it is taken
+/// to hold one more pixel as bad as the worst that was seen, which is what protects against light
+/// that few samples find.
 PictureError picture_error(const Film& film);
 
 /// The relative RMSE of brume, of renders, comparisons and studies alike: the root of the squared

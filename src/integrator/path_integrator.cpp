@@ -79,6 +79,7 @@ CameraSample PathIntegrator::sample(const Vec2& film, Sampler& sampler) const {
   CameraSample result = path.first;
   result.alpha = 1.0f - mean(T);
   result.L = path.L;
+  result.work = 1.0f + float(path.segments);
   if (!settings_.hide_emitters)
     result.L += T * scene_.lights().environment_radiance(camera_ray.ray.d);
   return result;
