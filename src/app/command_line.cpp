@@ -45,6 +45,16 @@ double parse_duration(const char* option, const std::string& text) {
                              fmt::format("\"{}\" is no duration; write 90s, 5m or 1.5h", text));
 }
 
+double parse_error(const std::string& text) {
+  if (const auto number = leading_number(text)) {
+    const auto& [value, unit] = *number;
+    const double error = unit == "%" ? value / 100.0 : value;
+    if ((unit.empty() || unit == "%") && error > 0.0 && error < 1.0) return error;
+  }
+  throw CLI::ValidationError(
+      "--error", fmt::format("\"{}\" is no relative error below 1; write 1% or 0.01", text));
+}
+
 glm::ivec2 parse_size(const std::string& text) {
   glm::ivec2 size(0);
   const char* end = text.data() + text.size();
@@ -181,7 +191,7 @@ void add_render(CLI::App& app, RenderOptions& options) {
       ->allow_extra_args(false);
 
   const auto stop = "When to stop (the first one reached; default: the scene's sample_count)";
-  render.add_option("--spp", options.spp, "Samples a pixel")
+  render.add_option("--spp", options.spp, "Samples a pixel; no pixel gets more")
       ->check(CLI::Range(1u, 1u << 30))
       ->type_name("N")
       ->group(stop);
@@ -191,6 +201,17 @@ void add_render(CLI::App& app, RenderOptions& options) {
           [&](const std::string& text) { options.seconds = parse_duration("--time", text); },
           "Time to spend, loading and writing included: 90s, 5m, 1.5h")
       ->type_name("DURATION")
+      ->group(stop);
+  render
+      .add_option_function<std::string>(
+          "--error", [&](const std::string& text) { options.error = parse_error(text); },
+          "Relative RMS error of the picture, with 95% confidence: 1% or 0.01")
+      ->type_name("E")
+      ->group(stop);
+  render
+      .add_flag_callback(
+          "--no-adaptive", [&] { options.adaptive = false; },
+          "With --time or --error: as many samples for each pixel, not more where the error is")
       ->group(stop);
 
   const auto picture = "The picture";
@@ -321,6 +342,7 @@ std::variant<RenderOptions, InfoOptions, CompareOptions, TradeOptions, Done> par
       "  brume render cloud.vdb -o cloud.png\n"
       "  brume render fog.xml --spp 256 -o fog.exr -o fog.png\n"
       "  brume render fog.xml --time 90s -D fog_sigma_t=0.5\n"
+      "  brume render fog.xml --error 1%\n"
       "  brume info cloud.vdb\n"
       "  brume compare fog.exr reference.exr -o error.png\n"
       "  brume trade fog.xml --budget 5m -o fog_trade.html\n\n"

@@ -18,6 +18,8 @@ struct RenderOptions {
   std::vector<std::string> outputs{};
   std::optional<std::uint32_t> spp{};
   std::optional<double> seconds{};
+  std::optional<double> error{};  // relative RMS, 0.01 is one percent
+  bool adaptive = true;
   std::optional<glm::ivec2> size{};  // [pixel]
   std::uint64_t seed = 0;
   int threads = 0;  // 0: all processors

@@ -30,13 +30,20 @@ std::vector<std::string> output_paths(const RenderOptions& options) {
   return {std::filesystem::path(options.input).stem().string() + ".exr"};
 }
 
+/// A render that only counts samples gives each pixel as many as it was told.
+bool is_adaptive(const RenderOptions& options) {
+  return options.adaptive && (options.seconds || options.error);
+}
+
 RenderSettings render_settings(const RenderOptions& options, const LoadedScene& loaded,
                                double seconds_used, std::size_t output_count) {
   RenderSettings settings;
   if (options.spp)
     settings.spp = *options.spp;
-  else if (!options.seconds)
+  else if (!options.seconds && !options.error)
     settings.spp = std::uint32_t(loaded.sample_count);
+  settings.error = options.error.value_or(0.0);
+  settings.adaptive = is_adaptive(options);
   if (options.seconds) {
     // Writing is part of the time: about half a second a megapixel and file.
     const double megapixels = 1e-6 * loaded.film.crop_size.x * loaded.film.crop_size.y;
@@ -63,7 +70,7 @@ Metadata metadata(const RenderStatistics& s, const RenderOptions& options,
       {"brume:scene", s.input},
       {"brume:seed", std::to_string(s.seed)},
       {"brume:samples", s.result.mean_spp},
-      {"brume:seconds", s.result.seconds},
+      {"brume:seconds", s.result.state.seconds},
       {"brume:stopped", describe(s.result.reason)},
       {"brume:max_depth", path.max_depth},
       {"brume:rr_depth", path.rr_depth},
@@ -79,7 +86,8 @@ Metadata metadata(const RenderStatistics& s, const RenderOptions& options,
 
 void print_summary(const RenderStatistics& s) {
   fmt::print("{} ({}x{}): {:.4g} samples a pixel in {:.1f} s, {}", fmt::join(s.outputs, ", "),
-             s.size.x, s.size.y, s.result.mean_spp, s.result.seconds, describe(s.result.reason));
+             s.size.x, s.size.y, s.result.mean_spp, s.result.state.seconds,
+             describe(s.result.reason));
   if (std::isfinite(s.error.relative_rms))
     fmt::print("; relative RMS error {:.2g}%, below {:.2g}% with 95% confidence",
                100.0 * s.error.relative_rms, 100.0 * s.error.upper_bound);
@@ -107,7 +115,7 @@ int run_render(const RenderOptions& options) {
   print_notices(notices);
   if (options.max_depth) loaded.path.max_depth = *options.max_depth;
 
-  FilmLayers layers;
+  FilmLayers layers{.guide = is_adaptive(options)};
   for (const auto& names : {options.layers, loaded.aovs})
     for (const std::string& name : names) (name == "albedo" ? layers.albedo : layers.depth) = true;
   Film film(std::uint32_t(loaded.film.crop_size.x), std::uint32_t(loaded.film.crop_size.y), layers);

@@ -20,6 +20,8 @@ std::string describe(StopReason reason) {
       return "sample count reached";
     case StopReason::kTimeLimit:
       return "time spent";
+    case StopReason::kErrorTarget:
+      return "error target reached";
     case StopReason::kInterrupted:
       return "interrupted";
   }
@@ -53,7 +55,7 @@ void write_statistics(const std::string& path, const RenderStatistics& statistic
       {"seed", statistics.seed},
       {"stopped", describe(statistics.result.reason)},
       {"load_seconds", statistics.load_seconds},
-      {"render_seconds", statistics.result.seconds},
+      {"render_seconds", statistics.result.state.seconds},
       {"min_spp", statistics.result.min_spp},
       {"mean_spp", statistics.result.mean_spp},
       {"bad_samples", statistics.bad_samples ? statistics.bad_samples->count : 0},

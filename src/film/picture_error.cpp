@@ -30,10 +30,6 @@ double upper_limit(double sum, double sum_of_squares, double largest) {
 
 }  // namespace
 
-double relative_rms(double mean_square_error, double mean_radiance) {
-  return mean_radiance > 0.0 ? std::sqrt(mean_square_error) / mean_radiance : INFINITY;
-}
-
 PictureError picture_error(const Film& film) {
   double radiance = 0.0;        // sum over pixels
   double sum = 0.0;             // over pixels, of the squared standard error
@@ -55,13 +51,14 @@ PictureError picture_error(const Film& film) {
     }
   }
   if (pixels == 0.0 || radiance == 0.0) return {INFINITY, INFINITY};
-  if (sum == 0.0) return {0.0, 0.0};
+  if (sum == 0.0) return {0.0, 0.0};  // where the limit would be 0 / 0
   const double mean_radiance = radiance / pixels;
   // The picture may be too bright as a whole, too, which makes a relative error look small.
   const double least_radiance = mean_radiance - kOneSided95 * std::sqrt(sum) / pixels;
-  return {.relative_rms = relative_rms(sum / pixels, mean_radiance),
+  if (!(least_radiance > 0.0)) return {relative_rmse(sum / pixels, mean_radiance), INFINITY};
+  return {.relative_rms = relative_rmse(sum / pixels, mean_radiance),
           .upper_bound =
-              relative_rms(upper_limit(sum, sum_of_squares, largest) / pixels, least_radiance)};
+              relative_rmse(upper_limit(sum, sum_of_squares, largest) / pixels, least_radiance)};
 }
 
 }  // namespace brume

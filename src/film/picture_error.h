@@ -7,11 +7,6 @@ namespace brume {
 
 class Film;
 
-/// The relative RMS error of a picture, wherever brume speaks of one: the root mean square error
-/// of all pixels and channels over the mean radiance of the converged picture. Infinite for a black
-/// one, where nothing is relative to anything.
-double relative_rms(double mean_square_error, double mean_radiance);
-
 /// How far a picture is from its converged self, estimated from its own samples. It says nothing
 /// about bias.
 struct PictureError {

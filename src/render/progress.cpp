@@ -41,6 +41,12 @@ Progress::~Progress() {
   show("\n");
 }
 
+void Progress::set_error(double error) {
+  const std::lock_guard lock(error_mutex_);
+  error_ = error;
+  samples_at_error_ = samples_.load(std::memory_order_relaxed);
+}
+
 void Progress::show_until(std::stop_token stop) {
   const bool redraws = style_ == ProgressStyle::kBar;
   const auto stopped = [&stop] { return stop.stop_requested(); };
@@ -70,8 +76,11 @@ double Progress::seconds() const {
 
 ProgressState Progress::state() const {
   ProgressState state = start_;
-  state.samples += samples_.load(std::memory_order_relaxed);
+  state.samples = samples_.load(std::memory_order_relaxed);
   state.seconds = seconds();
+  const std::lock_guard lock(error_mutex_);
+  state.error = error_;
+  state.samples_at_error = samples_at_error_;
   return state;
 }
 

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdio>
+#include <limits>
 #include <mutex>
 #include <thread>
 
@@ -33,6 +34,8 @@ class Progress {
 
   /// Counts samples; any thread.
   void add(std::uint64_t samples) { samples_.fetch_add(samples, std::memory_order_relaxed); }
+  /// The upper bound of the error that the samples so far give.
+  void set_error(double error);
 
  private:
   void show_until(std::stop_token stop);
@@ -45,6 +48,9 @@ class Progress {
   std::FILE* stream_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   std::atomic<std::uint64_t> samples_{0};
+  mutable std::mutex error_mutex_;
+  double error_ = std::numeric_limits<double>::infinity();
+  std::uint64_t samples_at_error_ = 0;
   std::mutex mutex_;
   std::condition_variable_any wake_;
   std::jthread thread_;  // last: it uses all of the above

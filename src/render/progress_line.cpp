@@ -6,28 +6,37 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 namespace brume {
 namespace {
 
 double samples_per_pixel(const ProgressState& state) {
-  return double(state.samples) / double(state.pixels);
+  return double(state.samples_before + state.samples) / double(state.pixels);
+}
+
+/// Samples a pixel that the render will have when it ends, if time does not end it; infinite while
+/// nothing tells. The squared error falls as the samples grow.
+double final_spp(const ProgressState& state) {
+  if (!(state.target_error > 0.0) || !std::isfinite(state.error)) return state.target_spp;
+  const double spp_at_error =
+      double(state.samples_before + state.samples_at_error) / double(state.pixels);
+  const double ratio = state.error / state.target_error;
+  return std::min(state.target_spp, spp_at_error * ratio * ratio);
 }
 
 /// In [0, 1], of the stop rule that is nearest to its end.
 double fraction_done(const ProgressState& state) {
   return std::clamp(
-      std::max(samples_per_pixel(state) / state.target_spp, state.seconds / state.seconds_limit),
+      std::max(samples_per_pixel(state) / final_spp(state), state.seconds / state.seconds_limit),
       0.0, 1.0);
 }
 
 /// Infinite while nothing tells.
 double seconds_left(const ProgressState& state) {
-  const double spp = samples_per_pixel(state);
-  const double by_samples = spp > 0.0 ? state.seconds * (state.target_spp - spp) / spp
-                                      : std::numeric_limits<double>::infinity();
+  const double samples_left = (final_spp(state) - samples_per_pixel(state)) * double(state.pixels);
+  const double by_samples = state.samples > 0 ? state.seconds * samples_left / double(state.samples)
+                                              : ProgressState::kUnknown;
   return std::max(0.0, std::min(by_samples, state.seconds_limit - state.seconds));
 }
 
@@ -58,12 +67,19 @@ std::string samples_field(const ProgressState& state) {
   return fmt::format("{:.1f}/{} spp", tenths, state.target_spp);
 }
 
+std::string error_field(const ProgressState& state) {
+  const std::string error = fmt::format("error <{:.2g}%", 100.0 * state.error);
+  if (!(state.target_error > 0.0)) return error;
+  return fmt::format("{} to {:.4g}%", error, 100.0 * state.target_error);
+}
+
 /// Most important first.
 std::vector<std::string> fields(const ProgressState& state) {
   std::vector<std::string> result{fmt::format("{:3}%", int(100.0 * fraction_done(state))),
                                   samples_field(state)};
   if (const double left = seconds_left(state); std::isfinite(left))
     result.push_back(clock_time(left) + " left");
+  if (std::isfinite(state.error)) result.push_back(error_field(state));
   result.push_back(clock_time(state.seconds) + " elapsed");
   if (state.seconds > 0.0)
     result.push_back(short_number(double(state.samples) / state.seconds) + " samples/s");

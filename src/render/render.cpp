@@ -15,114 +15,194 @@
 #include "core/sampler.h"
 #include "film/film.h"
 #include "render/interrupt.h"
+#include "render/sample_plan.h"
 
 namespace brume {
 namespace {
 
 constexpr std::uint32_t kTileSize = 8;  // [pixel]
 
-/// Says when to stop, to many threads.
-class StopRule {
+/// Says when to stop or to rest, to many threads.
+class Clock {
  public:
-  explicit StopRule(double seconds) : limit_(seconds) {}
+  Clock(double limit, double interval) : limit_(limit), interval_(interval), next_rest_(interval) {}
 
   double elapsed() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
   }
-  bool stops() {
-    if (!has_stopped() && !interrupt_requested() && elapsed() < limit_) return false;
-    stopped_.store(true, std::memory_order_relaxed);
+  /// Whether threads are to put their work down, for good or for a checkpoint.
+  bool calls() {
+    if (stopped_.load(std::memory_order_relaxed) || rests_.load(std::memory_order_relaxed))
+      return true;
+    const double now = elapsed();
+    if (interrupt_requested() || now >= limit_)
+      stopped_.store(true, std::memory_order_relaxed);
+    else if (now >= next_rest_)
+      rests_.store(true, std::memory_order_relaxed);
+    else
+      return false;
     return true;
   }
-  /// Whether `stops` has ever said so.
   bool has_stopped() const { return stopped_.load(std::memory_order_relaxed); }
+  bool rests() const { return rests_.load(std::memory_order_relaxed); }
+  /// Once all threads rest.
+  void go_on() {
+    next_rest_ = elapsed() + interval_;
+    rests_.store(false, std::memory_order_relaxed);
+  }
 
  private:
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-  double limit_;  // [s]
-  std::atomic<bool> stopped_{false};
+  double limit_, interval_, next_rest_;  // [s]
+  std::atomic<bool> stopped_{false}, rests_{false};
 };
 
-/// Samples `first` to `end` of every pixel of a tile. Pixels that the stop rule forestalls keep
-/// fewer samples.
-void render_tile(const SampleFunction& sample, std::uint32_t tile, std::uint32_t first,
-                 std::uint32_t end, StopRule& rule, Progress& progress, Film& film) {
-  const std::uint32_t tiles_across = (film.width() + kTileSize - 1) / kTileSize;
+class Renderer {
+ public:
+  Renderer(const SampleFunction& sample, const RenderSettings& settings, Film& film,
+           const RenderState& state)
+      : sample_(sample),
+        settings_(settings),
+        film_(film),
+        state_(state),
+        seconds_before_(state.seconds),
+        // The arena alone would not get more threads than the machine has.
+        allow_(oneapi::tbb::global_control::max_allowed_parallelism, std::size_t(threads())),
+        arena_(threads()),
+        clock_(settings.seconds,
+               settings.save_checkpoint ? settings.checkpoint_interval : double(kInfinity)),
+        progress_(settings.progress, goals(), stderr) {}
+
+  StopReason run();
+  RenderState state() const {
+    return {.replications = state_.replications, .seconds = seconds_before_ + clock_.elapsed()};
+  }
+
+ private:
+  int threads() const {
+    return settings_.threads > 0 ? settings_.threads : oneapi::tbb::info::default_concurrency();
+  }
+  ProgressState goals() const;
+  bool finish_round();
+  bool bring_to(const SamplePlan& plan, std::uint32_t limit);
+  void render_tile(std::uint32_t tile, const SamplePlan& plan, std::uint32_t limit);
+  bool has_all_samples() const;
+
+  const SampleFunction& sample_;
+  const RenderSettings& settings_;
+  Film& film_;
+  RenderState state_;
+  double seconds_before_;
+  oneapi::tbb::global_control allow_;
+  oneapi::tbb::task_arena arena_;
+  Clock clock_;
+  Progress progress_;
+};
+
+std::uint64_t samples_drawn(const Film& film) {
+  std::uint64_t sum = 0;
+  for (std::uint32_t y = 0; y < film.height(); ++y)
+    for (std::uint32_t x = 0; x < film.width(); ++x) sum += film.drawn(x, y);
+  return sum;
+}
+
+ProgressState Renderer::goals() const {
+  const bool unlimited = settings_.spp == RenderSettings::kUnlimited;
+  return {.pixels = std::uint64_t(film_.width()) * film_.height(),
+          .samples_before = samples_drawn(film_),
+          .target_spp = unlimited ? double(kInfinity) : double(settings_.spp),
+          .seconds_limit = settings_.seconds,
+          .target_error = settings_.error};
+}
+
+StopReason Renderer::run() {
+  while (finish_round()) {
+    if (settings_.error > 0.0 || settings_.progress != ProgressStyle::kQuiet) {
+      const PictureError error = picture_error(film_);
+      progress_.set_error(error.upper_bound);
+      if (error.upper_bound < settings_.error) return StopReason::kErrorTarget;
+    }
+    const std::uint32_t next = next_round(state_.replications);
+    if (next == state_.replications || has_all_samples()) return StopReason::kSampleCount;
+    state_.replications = next;
+  }
+  return interrupt_requested() ? StopReason::kInterrupted : StopReason::kTimeLimit;
+}
+
+/// Whether the latest round could be brought to its end.
+bool Renderer::finish_round() {
+  const SamplePlan plan = settings_.adaptive && state_.replications > 0
+                              ? adaptive_plan(film_, state_.replications)
+                              : even_plan(state_.replications);
+  // The picture as a whole is there soon, whatever ends the render.
+  if (state_.replications == 1)
+    for (const std::uint32_t few : {1u, 2u, 4u, 8u})
+      if (!bring_to(plan, std::min(few, settings_.spp))) return false;
+  return bring_to(plan, settings_.spp);
+}
+
+/// Whether all pixels got the samples of `plan`, up to `limit`.
+bool Renderer::bring_to(const SamplePlan& plan, std::uint32_t limit) {
+  const std::uint32_t tiles = ((film_.width() + kTileSize - 1) / kTileSize) *
+                              ((film_.height() + kTileSize - 1) / kTileSize);
+  for (;;) {
+    arena_.execute([&] {
+      oneapi::tbb::parallel_for(0u, tiles,
+                                [&](std::uint32_t tile) { render_tile(tile, plan, limit); });
+    });
+    if (clock_.has_stopped()) return false;
+    if (!clock_.rests()) return true;
+    settings_.save_checkpoint(state());
+    clock_.go_on();
+  }
+}
+
+void Renderer::render_tile(std::uint32_t tile, const SamplePlan& plan, std::uint32_t limit) {
+  const std::uint32_t tiles_across = (film_.width() + kTileSize - 1) / kTileSize;
   const std::uint32_t left = tile % tiles_across * kTileSize;
   const std::uint32_t top = tile / tiles_across * kTileSize;
-  for (std::uint32_t y = top; y < std::min(top + kTileSize, film.height()); ++y) {
-    for (std::uint32_t x = left; x < std::min(left + kTileSize, film.width()); ++x) {
-      if (rule.stops()) return;
-      for (std::uint32_t i = first; i < end; ++i) film.add(x, y, sample(x, y, i));
-      progress.add(end - first);
+  for (std::uint32_t y = top; y < std::min(top + kTileSize, film_.height()); ++y) {
+    for (std::uint32_t x = left; x < std::min(left + kTileSize, film_.width()); ++x) {
+      const std::uint32_t end = std::min(plan.samples(std::size_t(y) * film_.width() + x), limit);
+      for (std::uint32_t i = film_.drawn(x, y); i < end;) {
+        if (clock_.calls()) return;
+        const std::uint32_t first = i;
+        for (; i < std::min(end, first + Sampler::kReplication); ++i)
+          film_.add(x, y, sample_(x, y, i));
+        progress_.add(i - first);
+      }
     }
   }
 }
 
-/// Samples of the next pass: 1, 1, 2, 4, 8, then whole replications. Short passes, which cost
-/// their overhead more often, are followed by ones of twice the length.
-std::uint32_t next_pass(std::uint32_t done, std::uint32_t last_pass, double last_seconds) {
-  constexpr double kShortPass = 0.5;  // [s]
-  if (done < Sampler::kReplication) return std::max(done, 1u);
-  const std::uint32_t whole = std::max(last_pass, Sampler::kReplication);
-  if (last_pass < Sampler::kReplication) return whole;
-  return last_seconds < kShortPass ? 2 * whole : whole;
-}
-
-RenderResult summarize(const Film& film, StopReason reason, double seconds) {
-  std::uint32_t fewest = RenderSettings::kUnlimited;
-  double sum = 0.0;
-  for (std::uint32_t y = 0; y < film.height(); ++y)
-    for (std::uint32_t x = 0; x < film.width(); ++x) {
-      fewest = std::min(fewest, film.samples(x, y));
-      sum += film.samples(x, y);
-    }
-  return {.reason = reason,
-          .seconds = seconds,
-          .min_spp = fewest,
-          .mean_spp = sum / (double(film.width()) * film.height())};
+bool Renderer::has_all_samples() const {
+  for (std::uint32_t y = 0; y < film_.height(); ++y)
+    for (std::uint32_t x = 0; x < film_.width(); ++x)
+      if (film_.drawn(x, y) < settings_.spp) return false;
+  return true;
 }
 
 }  // namespace
 
-RenderResult render(const SampleFunction& sample, const RenderSettings& settings, Film& film) {
+RenderResult render(const SampleFunction& sample, const RenderSettings& settings, Film& film,
+                    const RenderState& state) {
   assert(settings.spp > 0 && film.width() > 0 && film.height() > 0);
-  const int threads =
-      settings.threads > 0 ? settings.threads : oneapi::tbb::info::default_concurrency();
-  // The arena alone would not get more threads than the machine has.
-  const oneapi::tbb::global_control allow(oneapi::tbb::global_control::max_allowed_parallelism,
-                                          std::size_t(threads));
-  oneapi::tbb::task_arena arena(threads);
-
-  StopRule rule(settings.seconds);
-  const bool unlimited = settings.spp == RenderSettings::kUnlimited;
-  Progress progress(settings.progress,
-                    {.pixels = std::uint64_t(film.width()) * film.height(),
-                     .samples = 0,
-                     .target_spp = unlimited ? double(kInfinity) : double(settings.spp),
-                     .seconds = 0.0,
-                     .seconds_limit = settings.seconds},
-                    stderr);
-
-  const std::uint32_t tiles =
-      ((film.width() + kTileSize - 1) / kTileSize) * ((film.height() + kTileSize - 1) / kTileSize);
-  std::uint32_t done = 0, pass = 0;
-  double pass_seconds = 0.0;
-  while (done < settings.spp && !rule.stops()) {
-    pass = std::min(next_pass(done, pass, pass_seconds), settings.spp - done);
-    const double begin = rule.elapsed();
-    arena.execute([&] {
-      oneapi::tbb::parallel_for(0u, tiles, [&](std::uint32_t tile) {
-        render_tile(sample, tile, done, done + pass, rule, progress, film);
-      });
-    });
-    pass_seconds = rule.elapsed() - begin;
-    done += pass;
+  assert(!settings.adaptive || film.layers().guide);
+  RenderResult result{
+      .reason = {}, .state = state, .min_spp = RenderSettings::kUnlimited, .mean_spp = 0.0};
+  {
+    Renderer renderer(sample, settings, film, state);
+    result.reason = renderer.run();
+    result.state = renderer.state();
   }
-  const StopReason reason = !rule.has_stopped()     ? StopReason::kSampleCount
-                            : interrupt_requested() ? StopReason::kInterrupted
-                                                    : StopReason::kTimeLimit;
-  return summarize(film, reason, rule.elapsed());
+  double sum = 0.0;
+  for (std::uint32_t y = 0; y < film.height(); ++y)
+    for (std::uint32_t x = 0; x < film.width(); ++x) {
+      result.min_spp = std::min(result.min_spp, film.samples(x, y));
+      sum += film.samples(x, y);
+    }
+  result.mean_spp = sum / (double(film.width()) * film.height());
+  return result;
 }
 
 }  // namespace brume

@@ -63,7 +63,7 @@ TEST_P(PictureErrorBound, HoldsTheErrorThatThePictureHas) {
     for (std::uint32_t y = 0; y < film.height(); ++y)
       for (std::uint32_t x = 0; x < film.width(); ++x)
         squares += std::pow(film.mean(x, y).r - noise.mean, 2.0);
-    const double truth = relative_rms(squares / (32.0 * 24.0), noise.mean);
+    const double truth = relative_rmse(squares / (32.0 * 24.0), noise.mean);
     const PictureError error = picture_error(film);
     held.add(truth < error.upper_bound ? 1.0 : 0.0);
     ratio.add(truth / error.upper_bound);

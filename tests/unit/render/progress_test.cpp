@@ -58,6 +58,28 @@ TEST(ProgressLine, TimeLimitCountsWhenItComesFirst) {
   EXPECT_THAT(plain_line(state), StartsWith("  0%  32.0 spp  1:15 elapsed"));
 }
 
+TEST(ProgressLine, ForecastsWhenTheErrorIsReached) {
+  // Half the error takes four times the samples, of which a half more than then are done.
+  ProgressState state = kHalfway;
+  state.target_spp = INFINITY;
+  state.error = 0.02;
+  state.samples_at_error = 213333;
+  state.target_error = 0.01;
+  EXPECT_EQ(plain_line(state),
+            " 37%  32.0 spp  2:05 left  error <2% to 1%  1:15 elapsed  4.27k samples/s");
+  state.target_spp = 64.0;  // is reached before
+  EXPECT_THAT(plain_line(state), StartsWith(" 50%  32.0/64 spp  1:15 left  error <2% to 1%"));
+  state.target_error = 0.0;
+  EXPECT_THAT(plain_line(state), StartsWith(" 50%  32.0/64 spp  1:15 left  error <2%  "));
+}
+
+TEST(ProgressLine, WhatAnEarlierRunDidTookNoneOfThisTime) {
+  ProgressState state = kHalfway;
+  state.samples_before = 160000;
+  state.samples = 160000;
+  EXPECT_EQ(plain_line(state), " 50%  32.0/64 spp  2:30 left  1:15 elapsed  2.13k samples/s");
+}
+
 TEST(ProgressLine, StartIsNotMistakenForTheEnd) {
   ProgressState state = kHalfway;
   state.samples = 0;

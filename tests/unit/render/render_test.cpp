@@ -14,6 +14,7 @@
 #include "core/sampler.h"
 #include "film/develop.h"
 #include "film/film.h"
+#include "film/picture_error.h"
 #include "render/interrupt.h"
 
 namespace brume {
@@ -30,19 +31,112 @@ CameraSample slow(std::uint32_t x, std::uint32_t y, std::uint32_t index) {
   return noise(x, y, index);
 }
 
+Film empty_film() {
+  return Film(61, 37, {.depth = true, .guide = true});
+}
+
 std::vector<float> pixels_after(const RenderSettings& settings) {
-  Film film(61, 37, {.albedo = false, .depth = true});
+  Film film = empty_film();
   render(noise, settings, film);
   return develop(film).pixels;
 }
 
+bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
+}
+
+/// Settings that end after a fixed number of samples, in every way there is.
+std::vector<RenderSettings> deterministic_settings() {
+  return {{.spp = 77},
+          {.error = 0.5},
+          {.error = 0.5, .adaptive = true},
+          {.spp = 100, .error = 0.4, .adaptive = true}};
+}
+
 TEST(Render, SameBitsForAnyNumberOfThreads) {
-  const std::vector<float> one = pixels_after({.spp = 77, .threads = 1});
-  for (const int threads : {2, 7}) {
-    const std::vector<float> many = pixels_after({.spp = 77, .threads = threads});
-    ASSERT_EQ(one.size(), many.size());
-    EXPECT_EQ(std::memcmp(one.data(), many.data(), one.size() * sizeof(float)), 0) << threads;
+  for (RenderSettings settings : deterministic_settings()) {
+    settings.threads = 1;
+    const std::vector<float> one = pixels_after(settings);
+    for (const int threads : {2, 7}) {
+      settings.threads = threads;
+      EXPECT_TRUE(same_bits(one, pixels_after(settings))) << threads;
+    }
   }
+}
+
+TEST(Render, InterruptedAndContinuedIsTheSameAsUninterrupted) {
+  for (RenderSettings settings : deterministic_settings()) {
+    settings.threads = 2;
+    const std::vector<float> uninterrupted = pixels_after(settings);
+    Film film = empty_film();
+    RenderState state;
+    StopReason reason = StopReason::kInterrupted;
+    int interrupts = -1;
+    for (; reason == StopReason::kInterrupted; ++interrupts) {
+      const InterruptGuard guard;
+      std::atomic<int> left = 12345 * (interrupts + 2);
+      const RenderResult result = render(
+          [&left](std::uint32_t x, std::uint32_t y, std::uint32_t index) {
+            if (--left == 0) std::raise(SIGINT);
+            return noise(x, y, index);
+          },
+          settings, film, state);
+      state = result.state;
+      reason = result.reason;
+    }
+    EXPECT_GE(interrupts, 3);
+    EXPECT_TRUE(same_bits(uninterrupted, develop(film).pixels));
+  }
+}
+
+TEST(Render, AskedForMoreItDoesTheSameFirst) {
+  for (const bool adaptive : {false, true}) {
+    Film film = empty_film();
+    const RenderResult half = render(noise, {.error = 0.6, .adaptive = adaptive}, film);
+    EXPECT_EQ(half.reason, StopReason::kErrorTarget);
+    render(noise, {.error = 0.4, .adaptive = adaptive}, film, half.state);
+    EXPECT_TRUE(
+        same_bits(develop(film).pixels, pixels_after({.error = 0.4, .adaptive = adaptive})));
+  }
+}
+
+TEST(Render, ErrorTargetEndsTheRenderSoonAfterItIsReached) {
+  for (const bool adaptive : {false, true}) {
+    Film film = empty_film();
+    const RenderResult result = render(noise, {.error = 0.4, .adaptive = adaptive}, film);
+    EXPECT_EQ(result.reason, StopReason::kErrorTarget);
+    EXPECT_LT(picture_error(film).upper_bound, 0.4);
+    EXPECT_GT(picture_error(film).upper_bound, 0.8 * 0.4);
+  }
+}
+
+TEST(Render, SavesCheckpointsWhileSamplesRest) {
+  Film film(64, 64);
+  std::atomic<int> running = 0, disturbed = 0;
+  int checkpoints = 0;
+  double seconds = 0.0;
+  const RenderSettings settings{.seconds = 1.0,
+                                .threads = 2,
+                                .save_checkpoint =
+                                    [&](const RenderState& state) {
+                                      ++checkpoints;
+                                      disturbed += running;
+                                      EXPECT_GT(state.seconds, seconds);
+                                      seconds = state.seconds;
+                                    },
+                                .checkpoint_interval = 0.1};
+  const RenderResult result = render(
+      [&](std::uint32_t x, std::uint32_t y, std::uint32_t index) {
+        ++running;
+        const CameraSample sample = slow(x, y, index);
+        --running;
+        return sample;
+      },
+      settings, film);
+  EXPECT_EQ(result.reason, StopReason::kTimeLimit);
+  EXPECT_GE(checkpoints, 3);
+  EXPECT_LE(checkpoints, 10);
+  EXPECT_EQ(disturbed, 0);
 }
 
 TEST(Render, EveryPixelGetsItsSamplesInOrder) {
@@ -101,8 +195,8 @@ TEST(Render, TimeLimitIsKeptInTheMiddleOfAPass) {
   Film film(64, 64);  // a pass takes ten seconds
   const RenderResult result = render(slow, {.seconds = 0.3, .threads = 2}, film);
   EXPECT_EQ(result.reason, StopReason::kTimeLimit);
-  EXPECT_GE(result.seconds, 0.3);
-  EXPECT_LT(result.seconds, 1.3);
+  EXPECT_GE(result.state.seconds, 0.3);
+  EXPECT_LT(result.state.seconds, 1.3);
   EXPECT_EQ(result.min_spp, 0u);
   EXPECT_GT(result.mean_spp, 0.0);
 }
@@ -128,7 +222,7 @@ TEST(Render, InterruptStopsPromptlyAndKeepsTheSamples) {
         },
         {.spp = 16, .threads = 2}, film);
     EXPECT_EQ(result.reason, StopReason::kInterrupted);
-    EXPECT_LT(result.seconds, 1.0);
+    EXPECT_LT(result.state.seconds, 1.0);
     EXPECT_EQ(result.mean_spp * 64 * 64, count);
   }
   const InterruptGuard fresh;
