@@ -177,7 +177,7 @@ TEST_F(RenderCommand, ProgressIsPlainLinesInAFileAndABarOnATerminal) {
   EXPECT_THAT(in_file.err, Not(HasSubstr("\x1b")));
 
   const Ended on_terminal = run_on_terminal({"render", "scene.xml"});
-  EXPECT_THAT(on_terminal.err, HasSubstr("\r100%  [========================================]"));
+  EXPECT_THAT(on_terminal.err, HasSubstr("\r100%  [=============================]  4/4 spp"));
   EXPECT_THAT(on_terminal.err, ::testing::EndsWith("\x1b[K\r\n"));
   EXPECT_EQ(on_terminal.exit_code, 0);
 }
@@ -194,7 +194,31 @@ TEST_F(RenderCommand, StopsWhenTheTimeIsSpent) {
   EXPECT_TRUE(exists("long.exr"));
 }
 
+TEST_F(RenderCommand, StopsWhenTheErrorIsReached) {
+  write_long_scene();
+  for (const char* error : {"2%", "0.02"}) {
+    const Ended ended = run({"render", "long.xml", "--error", error, "--json", "s.json"});
+    EXPECT_EQ(ended.exit_code, 0);
+    EXPECT_THAT(ended.out, HasSubstr("error target reached; relative RMS error"));
+    EXPECT_THAT(ended.err, HasSubstr("% to 2%"));
+    const nlohmann::json s = read_json("s.json");
+    EXPECT_EQ(s["stopped"], "error target reached");
+    EXPECT_LT(s["relative_rms_error_bound_95"], 0.02);
+    EXPECT_GT(s["relative_rms_error_bound_95"], 0.015);
+    EXPECT_LT(s["min_spp"], s["mean_spp"]);
+    EXPECT_EQ(read("long.exr").spec.get_string_attribute("brume:stopped"), "error target reached");
+  }
+  EXPECT_EQ(
+      run({"render", "long.xml", "--error", "2%", "--no-adaptive", "--json", "s.json"}).exit_code,
+      0);
+  EXPECT_EQ(read_json("s.json")["min_spp"], read_json("s.json")["mean_spp"]);
+}
+
 TEST_F(RenderCommand, TheStopRuleThatIsReachedFirstCounts) {
+  EXPECT_THAT(run({"render", "scene.xml", "--spp", "3", "--error", "0.1%"}).out,
+              HasSubstr("3 samples a pixel"));
+  EXPECT_THAT(run({"render", "scene.xml", "--time", "1s", "--error", "0.001%"}).out,
+              HasSubstr("time spent"));
   const Ended ended = run({"render", "scene.xml", "--spp", "3", "--time", "1h"});
   EXPECT_EQ(ended.exit_code, 0);
   EXPECT_THAT(ended.out, HasSubstr("3 samples a pixel"));

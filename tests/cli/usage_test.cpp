@@ -12,12 +12,22 @@ TEST_F(Usage, HelpTellsEveryOptionAndGoesToStdout) {
   const Ended ended = run({"render", "--help"});
   EXPECT_EQ(ended.exit_code, 0);
   EXPECT_EQ(ended.err, "");
-  for (const char* option :
-       {"INPUT",      "-s,--scene",  "-o,--output", "--spp",     "--time",  "--size",
-        "--exposure", "--aov",       "--max-depth", "-D",        "--grid",  "--density-scale",
-        "--albedo",   "--g ",        "--seed",      "--threads", "--quiet", "--json",
-        "--set",      "near-lights", "textbook",    ".xml",      ".vdb",    ".nvdb",
-        ".vol",       ".exr",        ".png",        ".jpg",      ".hdr",    "-h,--help"})
+  for (const char* option : {"INPUT",         "-s,--scene",
+                             "-o,--output",   "--spp",
+                             "--time",        "--error",
+                             "--no-adaptive", "--size",
+                             "--exposure",    "--aov",
+                             "--max-depth",   "-D",
+                             "--grid",        "--density-scale",
+                             "--albedo",      "--g ",
+                             "--seed",        "--threads",
+                             "--quiet",       "--json",
+                             "--set",         "near-lights",
+                             "textbook",      ".xml",
+                             ".vdb",          ".nvdb",
+                             ".vol",          ".exr",
+                             ".png",          ".jpg",
+                             ".hdr",          "-h,--help"})
     EXPECT_THAT(ended.out, HasSubstr(option));
 
   const Ended info = run({"info", "--help"});
@@ -79,6 +89,10 @@ TEST_F(Usage, ValuesThatMakeNoSenseAreRefused) {
                  "brume: --time: \"-3\" is no duration; write 90s, 5m or 1.5h" + try_help);
   expect_refusal({"render", "scene.xml", "--time", "5 parsecs"}, 2,
                  "brume: --time: \"5 parsecs\" is no duration; write 90s, 5m or 1.5h" + try_help);
+  for (const std::string error : {"5", "0", "-1%", "100%", "1 %", "little", "nan"})
+    expect_refusal({"render", "scene.xml", "--error", error}, 2,
+                   "brume: --error: \"" + error +
+                       "\" is no relative error below 1; write 1% or 0.01" + try_help);
   expect_refusal({"render", "scene.xml", "--size", "640"}, 2,
                  "brume: --size: \"640\" is no picture size; write width x height in pixels, such "
                  "as 1280x720" +
