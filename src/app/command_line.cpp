@@ -251,6 +251,21 @@ void add_render(CLI::App& app, RenderOptions& options) {
       ->type_name("N")
       ->group(run);
   render.add_flag("--quiet", options.quiet, "Print nothing but warnings and errors")->group(run);
+  render
+      .add_option_function<std::string>(
+          "--checkpoint-every",
+          [&](const std::string& text) {
+            options.checkpoint_every = parse_duration("--checkpoint-every", text);
+          },
+          "Save all that --resume needs beside the first output (FILE.checkpoint), in such "
+          "intervals and at the end")
+      ->type_name("DURATION")
+      ->group(run);
+  render
+      .add_flag("--resume", options.resume,
+                "Go on from the first output's checkpoint, if there is one, with the same bits as "
+                "if nothing had stopped the render; saves one at the end")
+      ->group(run);
   render.add_option("--json", options.statistics_path, "Write statistics for programs to FILE")
       ->type_name("FILE")
       ->group(run);
@@ -342,7 +357,7 @@ std::variant<RenderOptions, InfoOptions, CompareOptions, TradeOptions, Done> par
       "  brume render cloud.vdb -o cloud.png\n"
       "  brume render fog.xml --spp 256 -o fog.exr -o fog.png\n"
       "  brume render fog.xml --time 90s -D fog_sigma_t=0.5\n"
-      "  brume render fog.xml --error 1%\n"
+      "  brume render fog.xml --error 1% --checkpoint-every 60s --resume\n"
       "  brume info cloud.vdb\n"
       "  brume compare fog.exr reference.exr -o error.png\n"
       "  brume trade fog.xml --budget 5m -o fog_trade.html\n\n"

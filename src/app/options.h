@@ -29,7 +29,9 @@ struct RenderOptions {
   float exposure = 0.0f;  // [stops]
   EstimatorSettings settings{};
   bool quiet = false;
-  std::string statistics_path{};  // empty: none
+  std::string statistics_path{};             // empty: none
+  std::optional<double> checkpoint_every{};  // [s]
+  bool resume = false;
 
   // For a bare volume.
   std::string grid{};

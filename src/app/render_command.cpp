@@ -8,8 +8,10 @@
 #include "app/camera_samples.h"
 #include "app/commands.h"
 #include "app/input.h"
+#include "app/render_fingerprint.h"
 #include "app/statistics_file.h"
 #include "app/version.h"
+#include "core/error.h"
 #include "film/atomic_file.h"
 #include "film/develop.h"
 #include "film/write_image.h"
@@ -35,6 +37,10 @@ bool is_adaptive(const RenderOptions& options) {
   return options.adaptive && (options.seconds || options.error);
 }
 
+bool keeps_checkpoint(const RenderOptions& options) {
+  return options.checkpoint_every || options.resume;
+}
+
 RenderSettings render_settings(const RenderOptions& options, const LoadedScene& loaded,
                                double seconds_used, std::size_t output_count) {
   RenderSettings settings;
@@ -47,7 +53,8 @@ RenderSettings render_settings(const RenderOptions& options, const LoadedScene& 
   if (options.seconds) {
     // Writing is part of the time: about half a second a megapixel and file.
     const double megapixels = 1e-6 * loaded.film.crop_size.x * loaded.film.crop_size.y;
-    const double writing = 0.05 + 0.5 * megapixels * double(output_count);
+    const double files = double(output_count) + (keeps_checkpoint(options) ? 1.0 : 0.0);
+    const double writing = 0.05 + 0.5 * megapixels * files;
     settings.seconds = std::max(*options.seconds - seconds_used - writing, 0.0);
   }
   settings.threads = options.threads;
@@ -102,6 +109,72 @@ void warn_of_bad_samples(const RenderStatistics& s) {
              s.bad_samples->count, s.bad_samples->x, s.bad_samples->y);
 }
 
+/// The layers that were asked for, and what adaptive sampling needs: now, or in a later run.
+FilmLayers film_layers(const RenderOptions& options, const LoadedScene& loaded) {
+  FilmLayers layers{.guide = is_adaptive(options) || keeps_checkpoint(options)};
+  for (const auto& names : {options.layers, loaded.aovs})
+    for (const std::string& name : names) (name == "albedo" ? layers.albedo : layers.depth) = true;
+  return layers;
+}
+
+/// The file that a render is saved to and continued from, if it was asked for.
+class Checkpoint {
+ public:
+  Checkpoint(const RenderOptions& options, const LoadedScene& loaded, const std::string& path,
+             Film& film)
+      : path_(path), film_(film) {
+    if (!keeps_checkpoint(options)) return;
+    fingerprint_ = render_fingerprint(options, loaded, film.layers());
+    if (!options.resume) return;
+    if (std::filesystem::exists(path_))
+      state_ = read_checkpoint(path_, *fingerprint_, film);
+    else
+      print_notices({fmt::format("there is no {} to resume: rendering from the start", path_)});
+  }
+
+  /// How far an earlier run came.
+  const RenderState& state() const { return state_; }
+  void save(const RenderState& state) const {
+    if (fingerprint_) write_checkpoint(path_, *fingerprint_, state, film_);
+  }
+  /// The same in the middle of a render, which what is wrong with a disk does not end.
+  void save_or_warn(const RenderState& state) const {
+    try {
+      save(state);
+    } catch (const Error& error) {
+      fmt::print(stderr, "warning: {}; an older checkpoint is kept, and rendering goes on\n",
+                 error.what());
+    }
+  }
+
+ private:
+  std::string path_;
+  Film& film_;
+  std::optional<Fingerprint> fingerprint_{};
+  RenderState state_{};
+};
+
+/// Does one thing after the other, whatever becomes of those before.
+class Attempts {
+ public:
+  template <class Action>
+  void attempt(const Action& action) {
+    try {
+      action();
+    } catch (const Error& error) {
+      failures_.emplace_back(error.what());
+    }
+  }
+  /// Throws an Error that tells all that failed.
+  void check() const {
+    if (!failures_.empty())
+      throw Error(fmt::format("{}", fmt::join(failures_, "\nbrume: ")), ErrorKind::kEnvironment);
+  }
+
+ private:
+  std::vector<std::string> failures_;
+};
+
 }  // namespace
 
 int run_render(const RenderOptions& options) {
@@ -109,24 +182,30 @@ int run_render(const RenderOptions& options) {
   const std::vector<std::string> outputs = output_paths(options);
   for (const std::string& output : outputs) check_output_path(output);
   if (!options.statistics_path.empty()) check_writable(options.statistics_path);
+  const std::string checkpoint_path = outputs.front() + ".checkpoint";
+  if (keeps_checkpoint(options)) check_writable(checkpoint_path);
 
   Notices notices;
   LoadedScene loaded = load_input(options, notices);
   print_notices(notices);
   if (options.max_depth) loaded.path.max_depth = *options.max_depth;
 
-  FilmLayers layers{.guide = is_adaptive(options)};
-  for (const auto& names : {options.layers, loaded.aovs})
-    for (const std::string& name : names) (name == "albedo" ? layers.albedo : layers.depth) = true;
-  Film film(std::uint32_t(loaded.film.crop_size.x), std::uint32_t(loaded.film.crop_size.y), layers);
+  Film film(std::uint32_t(loaded.film.crop_size.x), std::uint32_t(loaded.film.crop_size.y),
+            film_layers(options, loaded));
+  const Checkpoint checkpoint(options, loaded, checkpoint_path, film);
   const PathIntegrator integrator(*loaded.scene, *loaded.camera, loaded.path);
 
   const InterruptGuard guard;
   const double load_seconds = seconds_since(begin);
   const bool independent = options.settings.numbers == EstimatorSettings::Numbers::kIndependent;
+  RenderSettings settings = render_settings(options, loaded, load_seconds, outputs.size());
+  if (options.checkpoint_every) {
+    settings.checkpoint_interval = *options.checkpoint_every;
+    settings.save_checkpoint = [&](const RenderState& state) { checkpoint.save_or_warn(state); };
+  }
   const RenderResult result =
-      render(camera_samples(integrator, loaded.film, options.seed, independent),
-             render_settings(options, loaded, load_seconds, outputs.size()), film);
+      render(camera_samples(integrator, loaded.film, options.seed, independent), settings, film,
+             checkpoint.state());
 
   const RenderStatistics statistics{.input = options.input,
                                     .outputs = outputs,
@@ -137,11 +216,17 @@ int run_render(const RenderOptions& options) {
                                     .load_seconds = load_seconds,
                                     .error = picture_error(film),
                                     .bad_samples = film.bad_samples()};
+  Attempts attempts;
+  attempts.attempt([&] { checkpoint.save(result.state); });
   const Image image = develop(film);
   const ToneMapping tone_mapping{.exposure = options.exposure, .alpha = loaded.path.hide_emitters};
   for (const std::string& output : outputs)
-    write_image(output, image, metadata(statistics, options, loaded.path), tone_mapping);
-  if (!options.statistics_path.empty()) write_statistics(options.statistics_path, statistics);
+    attempts.attempt([&] {
+      write_image(output, image, metadata(statistics, options, loaded.path), tone_mapping);
+    });
+  if (!options.statistics_path.empty())
+    attempts.attempt([&] { write_statistics(options.statistics_path, statistics); });
+  attempts.check();
 
   warn_of_bad_samples(statistics);
   if (!options.quiet) print_summary(statistics);

@@ -36,22 +36,29 @@ fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-/// A file that disappears unless it is renamed.
+/// A file beside `target` that disappears unless it is renamed to it.
 class TemporaryFile {
  public:
-  explicit TemporaryFile(const fs::path& path)
-      : path_(path),
-        descriptor_(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {}
+  /// Without a name, where the file system can do that: then not even a killed program leaves it.
+  explicit TemporaryFile(const fs::path& target)
+      : target_(target),
+        path_(folder_of(target) /
+              fmt::format(".{}.{}.partial", target.filename().string(), ::getpid())),
+        descriptor_(::open(folder_of(target).c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666)) {
+    if (descriptor_ >= 0) return;
+    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    has_name_ = descriptor_ >= 0;
+  }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
   ~TemporaryFile() {
     if (descriptor_ >= 0) ::close(descriptor_);
-    if (!path_.empty()) ::unlink(path_.c_str());
+    if (has_name_) ::unlink(path_.c_str());
   }
 
   bool is_open() const { return descriptor_ >= 0; }
 
-  /// False, with errno set, when not all of `bytes` reached the disk.
+  /// False, with errno set, when not all of `bytes` could be written.
   bool write(std::span<const unsigned char> bytes) {
     while (!bytes.empty()) {
       const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
@@ -59,22 +66,31 @@ class TemporaryFile {
       if (count < 0) return false;
       bytes = bytes.subspan(std::size_t(count));
     }
-    if (::fsync(descriptor_) != 0) return false;
-    const int descriptor = descriptor_;
-    descriptor_ = -1;
-    return ::close(descriptor) == 0;
+    return true;
   }
 
-  /// False, with errno set, when the file could not be moved.
-  bool rename_to(const fs::path& target) {
-    if (std::rename(path_.c_str(), target.c_str()) != 0) return false;
-    path_.clear();
+  /// False, with errno set, when the bytes did not reach the disk or the file could not be moved.
+  bool replace_target() {
+    if (::fsync(descriptor_) != 0 || !give_name()) return false;
+    const int descriptor = descriptor_;
+    descriptor_ = -1;
+    if (::close(descriptor) != 0 || std::rename(path_.c_str(), target_.c_str()) != 0) return false;
+    has_name_ = false;
     return true;
   }
 
  private:
-  fs::path path_;
+  bool give_name() {
+    if (has_name_) return true;
+    ::unlink(path_.c_str());
+    has_name_ = ::linkat(AT_FDCWD, fmt::format("/proc/self/fd/{}", descriptor_).c_str(), AT_FDCWD,
+                         path_.c_str(), AT_SYMLINK_FOLLOW) == 0;
+    return has_name_;
+  }
+
+  fs::path target_, path_;
   int descriptor_;
+  bool has_name_ = false;
 };
 
 }  // namespace
@@ -93,12 +109,16 @@ void check_writable(const std::string& path) {
 }
 
 void write_file_atomically(const std::string& path, std::span<const unsigned char> bytes) {
+  write_file_atomically(path, std::span(&bytes, 1));
+}
+
+void write_file_atomically(const std::string& path,
+                           std::span<const std::span<const unsigned char>> pieces) {
   check_writable(path);
-  const fs::path target = resolve(path);
-  TemporaryFile file(folder_of(target) /
-                     fmt::format(".{}.{}.partial", target.filename().string(), ::getpid()));
-  if (!file.is_open() || !file.write(bytes) || !file.rename_to(target))
-    fail(path, reason_of(errno));
+  TemporaryFile file(resolve(path));
+  bool good = file.is_open();
+  for (const std::span<const unsigned char> piece : pieces) good = good && file.write(piece);
+  if (!good || !file.replace_target()) fail(path, reason_of(errno));
 }
 
 }  // namespace brume

@@ -109,6 +109,7 @@ class DocumentReader {
     std::error_code failed;
     const std::filesystem::path resolved = std::filesystem::weakly_canonical(path, failed);
     open_files_.push_back(failed ? path : resolved);
+    document_.files.push_back(path);
     return read_xml(path);
   }
 

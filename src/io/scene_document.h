@@ -14,7 +14,8 @@ namespace brume {
 /// references resolved, names of the older dialect renamed.
 struct SceneDocument {
   std::vector<std::unique_ptr<SceneNode>> nodes;
-  const SceneNode* root;  // the <scene>
+  const SceneNode* root;                     // the <scene>
+  std::vector<std::filesystem::path> files;  // that were read for it, itself first
 };
 
 /// Throws an Error with position for what is not a well-formed scene file; what its objects mean

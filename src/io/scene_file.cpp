@@ -148,6 +148,17 @@ World build_world(const SceneDocument& document, const SceneNode& sensor, BuildC
   return world;
 }
 
+// Each file once, the scene's own first.
+std::vector<std::filesystem::path> files_of(const SceneDocument& document) {
+  std::vector<std::filesystem::path> files = document.files;
+  for (const auto& node : document.nodes) {
+    for (const std::filesystem::path& file : node->files()) {
+      if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
+    }
+  }
+  return files;
+}
+
 }  // namespace
 
 glm::dmat4 BuildContext::to_world(const SceneNode& node) const {
@@ -209,7 +220,8 @@ LoadedScene load_scene(const std::filesystem::path& path, const Definitions& def
           .film = world.sensor.film,
           .path = integrator.path,
           .aovs = std::move(integrator.aovs),
-          .sample_count = world.sensor.sample_count};
+          .sample_count = world.sensor.sample_count,
+          .files = files_of(document)};
 }
 
 }  // namespace brume

@@ -36,6 +36,7 @@ struct LoadedScene {
   PathSettings path;
   std::vector<std::string> aovs;  // layers that an aov integrator asks for: "albedo", "depth"
   int sample_count;               // samples a pixel
+  std::vector<std::filesystem::path> files;  // that were read, the input first
 };
 
 /// Reads a scene in the Mitsuba 3 XML dialect (docs/scene-format.md) with all files it refers to.

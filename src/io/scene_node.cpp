@@ -187,7 +187,7 @@ bool SceneNode::is_text(std::string_view name) const {
 
 std::filesystem::path SceneNode::file(std::string_view name) const {
   require(name, "path of a file");
-  return find_file(text(name, ""), *search_folders, position(name));
+  return asked_files_.emplace_back(find_file(text(name, ""), *search_folders, position(name)));
 }
 
 const SceneNode* SceneNode::named_child(std::string_view child_tag, std::string_view name) const {

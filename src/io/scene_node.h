@@ -103,6 +103,8 @@ class SceneNode {
   bool is_text(std::string_view name) const;
   /// Path of an existing file that a required parameter names.
   std::filesystem::path file(std::string_view name) const;
+  /// The files that were asked for so.
+  const std::vector<std::filesystem::path>& files() const { return asked_files_; }
 
   /// The only child with this tag and name, or nullptr.
   const SceneNode* named_child(std::string_view child_tag, std::string_view name) const;
@@ -123,6 +125,7 @@ class SceneNode {
   mutable std::set<std::string, std::less<>> asked_parameters_;
   mutable std::map<std::string, std::string, std::less<>> asked_children_;  // tag by name
   mutable std::set<std::string, std::less<>> asked_tags_;
+  mutable std::vector<std::filesystem::path> asked_files_;
 };
 
 /// `given` as it stands in the first of `folders` that has it. Throws at `where` when none has.

@@ -152,6 +152,7 @@ LoadedScene make_volume_scene(const VolumeSceneOptions& options, Notices& notice
   loaded.path.lighting = options.settings.lighting;
   loaded.path.approximations = options.settings.approximations;
   loaded.sample_count = 64;
+  loaded.files = {options.path};
   return loaded;
 }
 
