@@ -12,22 +12,15 @@ TEST_F(Usage, HelpTellsEveryOptionAndGoesToStdout) {
   const Ended ended = run({"render", "--help"});
   EXPECT_EQ(ended.exit_code, 0);
   EXPECT_EQ(ended.err, "");
-  for (const char* option : {"INPUT",         "-s,--scene",
-                             "-o,--output",   "--spp",
-                             "--time",        "--error",
-                             "--no-adaptive", "--size",
-                             "--exposure",    "--aov",
-                             "--max-depth",   "-D",
-                             "--grid",        "--density-scale",
-                             "--albedo",      "--g ",
-                             "--seed",        "--threads",
-                             "--quiet",       "--json",
-                             "--set",         "near-lights",
-                             "textbook",      ".xml",
-                             ".vdb",          ".nvdb",
-                             ".vol",          ".exr",
-                             ".png",          ".jpg",
-                             ".hdr",          "-h,--help"})
+  for (const char* option : {"INPUT",       "-s,--scene", "-o,--output",   "--spp",
+                             "--time",      "--error",    "--no-adaptive", "--checkpoint-every",
+                             "--resume",    "--size",     "--exposure",    "--aov",
+                             "--max-depth", "-D",         "--grid",        "--density-scale",
+                             "--albedo",    "--g ",       "--seed",        "--threads",
+                             "--quiet",     "--json",     "--set",         "near-lights",
+                             "textbook",    ".xml",       ".vdb",          ".nvdb",
+                             ".vol",        ".exr",       ".png",          ".jpg",
+                             ".hdr",        "-h,--help"})
     EXPECT_THAT(ended.out, HasSubstr(option));
 
   const Ended info = run({"info", "--help"});
