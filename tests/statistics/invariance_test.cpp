@@ -25,6 +25,7 @@ struct Motion {
   double scale;
   glm::dvec3 offset;  // in thicknesses of the slab
   glm::dmat4 turn{1.0};
+  double half_width = kSlabHalfWidth;  // in thicknesses
 };
 
 void PrintTo(const Motion& m, std::ostream* stream) {
@@ -48,8 +49,7 @@ TEST_P(Moved, SlabsLookTheSame) {
       matrix_text(m.turn) + "</emitter>";
   const std::string body =
       R"(<shape type="cube">)" +
-      matrix_text(move *
-                  glm::scale(glm::dmat4(1.0), glm::dvec3(kSlabHalfWidth, 0.5, kSlabHalfWidth))) +
+      matrix_text(move * glm::scale(glm::dmat4(1.0), glm::dvec3(m.half_width, 0.5, m.half_width))) +
       R"(<bsdf type="null"/>)" + homogeneous_text(slab.tau / m.scale, slab.albedo, slab.g) +
       "</shape>";
   const auto means =
@@ -69,8 +69,8 @@ TEST_P(Moved, SlabsLookTheSame) {
 
 const glm::dmat4 kTurned = glm::rotate(glm::dmat4(1.0), 1.1, glm::dvec3(0.3, -0.8, 0.5));
 
-// Positions are floats: 1e4 thicknesses from the origin they are a thousandth of the thickness
-// apart, and R is 0.3% low.
+// Floats count from the middle of a scene that lies 16 times its own width away; closer than that
+// from the origin of its file, where the widest of these slabs at 1e4 would be 0.3% low.
 INSTANTIATE_TEST_SUITE_P(
     , Moved,
     ::testing::Values(
@@ -79,7 +79,10 @@ INSTANTIATE_TEST_SUITE_P(
         Motion{"rotated", 1.0, {}, kTurned},
         Motion{"moved by 100 thicknesses", 1.0, {100.0, 100.0, 100.0}},
         Motion{"moved by 1000 thicknesses", 1.0, {1e3, 1e3, 1e3}},
-        Motion{"rotated, then moved by 1000 thicknesses", 1.0, {1e3, 1e3, 1e3}, kTurned}));
+        Motion{"rotated, then moved by 1000 thicknesses", 1.0, {1e3, 1e3, 1e3}, kTurned},
+        Motion{"200 thicknesses wide, moved by 1e4", 1.0, {1e4, 1e4, 1e4}, glm::dmat4(1.0), 100.0},
+        Motion{"moved by 1e6 thicknesses", 1.0, {1e6, 1e6, 1e6}},
+        Motion{"rotated, then moved by 1e6 thicknesses", 1.0, {1e6, 1e6, 1e6}, kTurned}));
 
 // Helmholtz reciprocity: light of a beam along a that a body sends to a view along b travels
 // against b; sent back, it is the beam along b, and the view that it reaches is along a.
