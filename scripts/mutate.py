@@ -80,8 +80,9 @@ BUGS = [
         "0.5f * (r_s * r_s + r_p * r_p)", "r_s * r_s",
         "HalfSpace.BehindGlassReflectsWhatGiovanelliFound"),
     Bug("Beer-Lambert in grids", "interpolation weights of two axes exchanged",
-        "src/volume/grid.h",
-        "(rng.next_float() < f.z)", "(rng.next_float() < f.x)",
+        "src/medium/heterogeneous_medium.cpp",
+        "lookup.stochastic(p, rng)",
+        "lookup.stochastic(Vec3(p.x, p.y, std::floor(p.z) + p.x - std::floor(p.x)), rng)",
         "BeerLambert.HoldsInGrids/*"),
     Bug("Beer-Lambert in grids", "ratio tracking steps by the majorant, not by its residual",
         "src/medium/heterogeneous_medium.cpp",
@@ -192,7 +193,7 @@ def copied(root, copy):
 
 
 def planted(tree):
-    """Puts every bug beside what is right; numbers of bugs that do not fit the code."""
+    """Puts every bug beside what is right. Returns the numbers of those that do not fit the code."""
     wrongs = {}  # of each expression, since two bugs may sit in one
     for number, b in enumerate(BUGS, 1):
         wrongs.setdefault((b.file, b.right, b.followed_by), []).append((number, b.wrong))
@@ -234,11 +235,12 @@ def main():
     root = pathlib.Path(__file__).resolve().parent.parent
     kept = os.environ.get("BRUME_MUTANTS")
     work = pathlib.Path(kept or tempfile.mkdtemp())
-    tree, folder = work / "tree", work / "build"
+    tree = work / "tree"
+    folder = tree / "build/checked"  # where it always is, so that ccache knows what has no bug
     try:
         copied(root, tree)
         stale = planted(tree)
-        run(["cmake", "--preset", "checked", "-B", str(folder)], cwd=tree, check=True)
+        run(["cmake", "--preset", "checked"], cwd=tree, check=True)
         programs = sorted({b.program for b in BUGS})
         built = run(["cmake", "--build", str(folder), "-j", str(os.cpu_count()), "--target",
                      *programs], cwd=tree)
