@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <filesystem>
 
 #include "app/camera_samples.h"
@@ -51,10 +52,15 @@ RenderSettings render_settings(const RenderOptions& options, const LoadedScene& 
   settings.error = options.error.value_or(0.0);
   settings.adaptive = is_adaptive(options);
   if (options.seconds) {
-    // Writing is part of the time: about half a second a megapixel and file.
+    // Writing is part of the time: about half a second a megapixel and file, and more on a machine
+    // with other work, as loading has shown. It is a guess, and may not take more than a tenth.
     const double megapixels = 1e-6 * loaded.film.crop_size.x * loaded.film.crop_size.y;
     const double files = double(output_count) + (keeps_checkpoint(options) ? 1.0 : 0.0);
-    const double writing = 0.05 + 0.5 * megapixels * files;
+    const double undisturbed = 0.05 + 0.5 * megapixels * files;
+    const double processor_seconds = double(std::clock()) / CLOCKS_PER_SEC;
+    const double slowdown = std::max(seconds_used / processor_seconds, 1.0);
+    const double writing = std::clamp(slowdown * undisturbed, undisturbed,
+                                      std::max(undisturbed, 0.1 * *options.seconds));
     settings.seconds = std::max(*options.seconds - seconds_used - writing, 0.0);
   }
   settings.threads = options.threads;
