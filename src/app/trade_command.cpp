@@ -111,6 +111,19 @@ class StudyLine {
   std::string last_;
 };
 
+/// The command line that renders the input with what was said of it.
+std::string render_command(const RenderOptions& options) {
+  std::string command = "brume render " + options.input;
+  for (const auto& [name, value] : options.definitions)
+    command += fmt::format(" -D {}={}", name, value);
+  if (!options.grid.empty()) command += " --grid " + options.grid;
+  if (options.density_scale) command += fmt::format(" --density-scale {}", *options.density_scale);
+  if (const auto& a = options.albedo)
+    command += fmt::format(" --albedo {},{},{}", a->r, a->g, a->b);
+  if (options.g) command += fmt::format(" --g {}", *options.g);
+  return command;
+}
+
 void write_reports(const ReportPaths& paths, const Study& study, const ReportInfo& info) {
   write_text(paths.html, html_report(study, info));
   write_text(paths.csv, csv_report(study, info));
@@ -162,6 +175,7 @@ int run_trade(const TradeOptions& options) {
                                  .stops = interrupt_requested});
   if (study.results.empty()) return kExitInterrupted;
   const ReportInfo info{.input = render.input,
+                        .command = render_command(render),
                         .version = kVersion,
                         .threads = render.threads,
                         .budget = options.budget,

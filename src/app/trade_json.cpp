@@ -41,6 +41,7 @@ Json trial_json(const TrialResult& r, const ReportInfo& info) {
 std::string trade_json(const Study& study, const ReportInfo& info) {
   Json json = {{"version", info.version},
                {"input", info.input},
+               {"command", info.command},
                {"threads", info.threads},
                {"budget_seconds", info.budget},
                {"seconds", info.seconds},

@@ -68,7 +68,7 @@ std::string img(const Image& image, float exposure, const std::string& descripti
 }
 
 std::string command(const ReportInfo& info, const TrialResult& result, std::uint32_t spp) {
-  std::string words = "brume render " + info.input;
+  std::string words = info.command;
   for (const std::string& option : result.trial.options) words += " " + option;
   return words + fmt::format(" --spp {}", spp);
 }

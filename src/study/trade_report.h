@@ -11,6 +11,7 @@ namespace brume {
 /// What a report says about a study beside its results.
 struct ReportInfo {
   std::string input;    // as on the command line
+  std::string command;  // that renders it by default
   std::string version;  // of brume
   int threads;
   double budget, seconds;      // given and spent [s]

@@ -96,6 +96,7 @@ TEST(TradeReport, HoldsEveryRowAndNothingFromElsewhere) {
   NoiseSubject subject;
   const Study study = run_study(subject, kTrials, {.seconds = 1.0});
   const ReportInfo info{.input = "a \"b\".xml",
+                        .command = "brume render a",
                         .version = "1.2.3",
                         .threads = 2,
                         .budget = 1.0,
