@@ -71,10 +71,11 @@ Glance glance_at(const RenderOptions& options, const glm::ivec2& full_size) {
           .radiance = reference_of_picture(picture).radiance};
 }
 
-/// Size at which every trial has time for a few hundred samples a pixel.
+/// Size at which every trial has time for a thousand samples a pixel: noise hides bias sooner than
+/// few pixels do.
 glm::ivec2 affordable_size(const glm::ivec2& full_size, double seconds_per_pixel_sample,
                            double seconds_a_trial) {
-  constexpr double kSamples = 6.0 * 64.0, kMinWidth = 64.0, kMaxWidth = 320.0;
+  constexpr double kSamples = 1024.0, kMinWidth = 64.0, kMaxWidth = 256.0;
   const double pixels = seconds_a_trial / (kSamples * seconds_per_pixel_sample);
   const double full_pixels = double(full_size.x) * full_size.y;
   const double width =

@@ -28,6 +28,8 @@ constexpr Candidate kCandidates[] = {
     {"tracking", "textbook", Needs::kMedia},
     {"lookup", "lookup=trilinear", Needs::kGrids},
     {"lookup", "lookup=nearest", Needs::kGrids},
+    {"storage", "storage=half", Needs::kGrids},
+    {"storage", "storage=8bit", Needs::kGrids},
     {"marching", "march=1", Needs::kGrids},
     {"marching", "march=4", Needs::kGrids},
     {"marching", "march=16", Needs::kGrids},

@@ -56,11 +56,12 @@ Setting unbiased_choice(std::string name, Choices<T> choices, std::string meanin
 template <class T, class Field>
 Setting with_biased_value(Setting setting, const std::string& word, T value, Field field) {
   const auto is_this = [field, value](const EstimatorSettings& s) { return field(s) == value; };
+  const auto was_biased = setting.is_biased;
   setting.values += ", " + word + " (biased)";
   setting.value = [=, name = setting.value](const EstimatorSettings& s) {
     return is_this(s) ? word : name(s);
   };
-  setting.is_biased = is_this;
+  setting.is_biased = [=](const EstimatorSettings& s) { return is_this(s) || was_biased(s); };
   setting.assign = [=, assign = setting.assign](EstimatorSettings& s, const std::string& given) {
     if (given != word) return assign(s, given);
     field(s) = value;
@@ -100,9 +101,13 @@ Setting biased_number(std::string name, std::string unit, std::string meaning, T
 std::vector<Setting> make_table() {
   using Bounds = TrackingSettings::Bounds;
   using Lookup = TrackingSettings::Lookup;
+  using Storage = TrackingSettings::Storage;
   using Numbers = EstimatorSettings::Numbers;
   const auto lookup = [](auto& s) -> auto& {
     return s.tracking.lookup;
+  };
+  const auto storage = [](auto& s) -> auto& {
+    return s.tracking.storage;
   };
   constexpr float kLargest = std::numeric_limits<float>::max();
   return {
@@ -133,6 +138,12 @@ std::vector<Setting> make_table() {
           Choices<Numbers>{{"sobol", Numbers::kSobol}, {"independent", Numbers::kIndependent}},
           "random numbers: Owen-scrambled Sobol points, or independent ones",
           [](auto& s) -> auto& { return s.numbers; }),
+      with_biased_value(
+          with_biased_value(
+              unbiased_choice("storage", Choices<Storage>{{"float", Storage::kFloat}},
+                              "voxels of scalar grids in memory: 32, 16 or 8 bits", storage),
+              "half", Storage::k16Bit, storage),
+          "8bit", Storage::k8Bit, storage),
       biased_number(
           "march", "a number of voxels from 0.01",
           "grids are crossed in steps of this length instead of by null collisions", 0.0f, 0.01f,

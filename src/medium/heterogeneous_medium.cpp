@@ -12,6 +12,7 @@
 #include "medium/marched_medium.h"
 #include "medium/similar_medium.h"
 #include "volume/bounds_grid.h"
+#include "volume/packed_grid.h"
 
 namespace brume {
 namespace {
@@ -93,10 +94,13 @@ float largest(const Rgb& v) {
   return max_component(v);
 }
 
-template <class Value>
+/// `Stored` is what voxels are kept as: float, Rgb, or a packed scalar.
+template <class Stored>
 class HeterogeneousMedium final : public Medium {
+  using Value = typename detail::Looked<Stored>::type;
+
  public:
-  HeterogeneousMedium(std::shared_ptr<const Grid<Value>> density, float density_scale,
+  HeterogeneousMedium(std::shared_ptr<const Grid<Stored>> density, float density_scale,
                       std::shared_ptr<const ColorField> albedo, HenyeyGreenstein phase,
                       const TrackingSettings& settings)
       : density_(std::move(density)),
@@ -122,7 +126,7 @@ class HeterogeneousMedium final : public Medium {
     if (!segment) return flight;
 
     Rng& rng = sampler.rng();
-    GridLookup<Value> lookup(*density_);
+    GridLookup<Stored> lookup(*density_);
     float tau = sample_optical_thickness(sampler.next_1d());
     walk_cells(bounds_, *segment, [&](const glm::ivec3& cell, float t, float t1) {
       const ValueRange range = bounds_.range(cell);
@@ -158,7 +162,7 @@ class HeterogeneousMedium final : public Medium {
     const auto segment = clip_to_grid(ray, t_max, bounds_, density_->index_from_world());
     if (!segment) return Rgb(T);
 
-    GridLookup<Value> lookup(*density_);
+    GridLookup<Stored> lookup(*density_);
     float tau = sample_optical_thickness(rng.next_float());
     walk_cells(bounds_, *segment, [&](const glm::ivec3& cell, float t, float t1) {
       const ValueRange range = bounds_.range(cell);
@@ -201,7 +205,7 @@ class HeterogeneousMedium final : public Medium {
  private:
   /// Extinction at t along the segment [1/unit], with the expectation of interpolation. The point
   /// is held inside its cell, whose bounds therefore hold, whatever the rounding of t.
-  Value extinction(GridLookup<Value>& lookup, const glm::ivec3& cell, const IndexSegment& segment,
+  Value extinction(GridLookup<Stored>& lookup, const glm::ivec3& cell, const IndexSegment& segment,
                    float t, [[maybe_unused]] float sigma_maj, Rng& rng) const {
     const Box3 box = bounds_.cell_box(cell);
     const Vec3 p = glm::clamp(segment.o + t * segment.d, box.min, box.max);
@@ -210,7 +214,7 @@ class HeterogeneousMedium final : public Medium {
     return sigma_t;
   }
 
-  Value look_up(GridLookup<Value>& lookup, const Vec3& p, Rng& rng) const {
+  Value look_up(GridLookup<Stored>& lookup, const Vec3& p, Rng& rng) const {
     switch (lookup_) {
       case VoxelLookup::kNearest:
         return lookup.nearest(p);
@@ -235,7 +239,7 @@ class HeterogeneousMedium final : public Medium {
     return false;
   }
 
-  std::shared_ptr<const Grid<Value>> density_;
+  std::shared_ptr<const Grid<Stored>> density_;
   float density_scale_;  // [1/unit] per density
   bool only_absorbs_;
   std::shared_ptr<const ColorField> albedo_;
@@ -245,21 +249,21 @@ class HeterogeneousMedium final : public Medium {
   VoxelLookup lookup_;
 };
 
-template <class Value>
-std::shared_ptr<const Medium> make(const std::shared_ptr<const Grid<Value>>& density,
+template <class Stored>
+std::shared_ptr<const Medium> make(const std::shared_ptr<const Grid<Stored>>& density,
                                    float density_scale,
                                    const std::shared_ptr<const ColorField>& albedo,
                                    HenyeyGreenstein phase, const TrackingSettings& settings) {
   if (settings.march_step > 0.0f)
     return make_marched_medium(density, density_scale, albedo, phase, settings.march_step);
-  return std::make_shared<HeterogeneousMedium<Value>>(density, density_scale, albedo, phase,
-                                                      settings);
+  return std::make_shared<HeterogeneousMedium<Stored>>(density, density_scale, albedo, phase,
+                                                       settings);
 }
 
 /// With the medium that is similar to it, where one is asked for. A grid of scalars or colours
 /// times a constant cannot hold one whose extinction follows the colour or place of the albedo.
-template <class Value>
-std::shared_ptr<const Medium> make_with_similar(std::shared_ptr<const Grid<Value>> density,
+template <class Stored>
+std::shared_ptr<const Medium> make_with_similar(std::shared_ptr<const Grid<Stored>> density,
                                                 float density_scale,
                                                 std::shared_ptr<const ColorField> albedo,
                                                 HenyeyGreenstein phase,
@@ -282,6 +286,16 @@ std::shared_ptr<const Medium> make_heterogeneous_medium(std::shared_ptr<const Gr
                                                         std::shared_ptr<const ColorField> albedo,
                                                         HenyeyGreenstein phase,
                                                         const TrackingSettings& settings) {
+  switch (settings.storage) {
+    case TrackingSettings::Storage::k16Bit:
+      return make_with_similar(packed<Packed16>(*density), density_scale, std::move(albedo), phase,
+                               settings);
+    case TrackingSettings::Storage::k8Bit:
+      return make_with_similar(packed<Packed8>(*density), density_scale, std::move(albedo), phase,
+                               settings);
+    case TrackingSettings::Storage::kFloat:
+      break;
+  }
   return make_with_similar(std::move(density), density_scale, std::move(albedo), phase, settings);
 }
 

@@ -9,14 +9,15 @@
 
 #include "medium/channel.h"
 #include "volume/bounds_grid.h"
+#include "volume/packed_grid.h"
 
 namespace brume {
 namespace {
 
-template <class Value>
+template <class Stored>
 class MarchedMedium final : public Medium {
  public:
-  MarchedMedium(std::shared_ptr<const Grid<Value>> density, float density_scale,
+  MarchedMedium(std::shared_ptr<const Grid<Stored>> density, float density_scale,
                 std::shared_ptr<const ColorField> albedo, HenyeyGreenstein phase, float step)
       : density_(std::move(density)),
         density_scale_(density_scale),
@@ -77,7 +78,7 @@ class MarchedMedium final : public Medium {
                                        bounds_.total().max * density_scale_, phase_.g),
             .scatters = bounds_.total().max > 0.0f,
             .is_tracked = true,
-            .is_chromatic = std::is_same_v<Value, Rgb>,
+            .is_chromatic = std::is_same_v<Stored, Rgb>,
             .memory_bytes = density_->memory_bytes()};
   }
 
@@ -88,7 +89,7 @@ class MarchedMedium final : public Medium {
   void march(const Ray& ray, float t_max, Rng& rng, Visit&& visit) const {
     const auto segment = clip_to_grid(ray, t_max, bounds_, density_->index_from_world());
     if (!segment) return;
-    GridLookup<Value> lookup(*density_);
+    GridLookup<Stored> lookup(*density_);
     const float length = step_ / glm::length(segment->d);
     const float place = rng.next_float();
     // Steps are counted, so that their ends do not drift.
@@ -97,14 +98,14 @@ class MarchedMedium final : public Medium {
       if (!(t0 < segment->t_end)) return;
       const float t1 = std::min(float(i + 1) * length, segment->t_end);
       const Vec3 p = segment->o + (t0 + place * (t1 - t0)) * segment->d;
-      const Value density = density_->interpolation() == Interpolation::kNearest
-                                ? lookup.nearest(p)
-                                : lookup.trilinear(p);
-      if (!visit(segment->t_start + t0, t1 - t0, Rgb(density_scale_ * density))) return;
+      const auto density = density_->interpolation() == Interpolation::kNearest
+                               ? lookup.nearest(p)
+                               : lookup.trilinear(p);
+      if (!visit(segment->t_start + t0, t1 - t0, density_scale_ * Rgb(density))) return;
     }
   }
 
-  std::shared_ptr<const Grid<Value>> density_;
+  std::shared_ptr<const Grid<Stored>> density_;
   float density_scale_;  // [1/unit] per density
   std::shared_ptr<const ColorField> albedo_;
   HenyeyGreenstein phase_;
@@ -114,20 +115,22 @@ class MarchedMedium final : public Medium {
 
 }  // namespace
 
-template <class Value>
-std::shared_ptr<const Medium> make_marched_medium(std::shared_ptr<const Grid<Value>> density,
+template <class Stored>
+std::shared_ptr<const Medium> make_marched_medium(std::shared_ptr<const Grid<Stored>> density,
                                                   float density_scale,
                                                   std::shared_ptr<const ColorField> albedo,
                                                   HenyeyGreenstein phase, float step) {
-  return std::make_shared<MarchedMedium<Value>>(std::move(density), density_scale,
-                                                std::move(albedo), phase, step);
+  return std::make_shared<MarchedMedium<Stored>>(std::move(density), density_scale,
+                                                 std::move(albedo), phase, step);
 }
 
-template std::shared_ptr<const Medium> make_marched_medium(std::shared_ptr<const Grid<float>>,
-                                                           float, std::shared_ptr<const ColorField>,
-                                                           HenyeyGreenstein, float);
-template std::shared_ptr<const Medium> make_marched_medium(std::shared_ptr<const Grid<Rgb>>, float,
-                                                           std::shared_ptr<const ColorField>,
-                                                           HenyeyGreenstein, float);
+template <class Stored>
+using Make = std::shared_ptr<const Medium>(std::shared_ptr<const Grid<Stored>>, float,
+                                           std::shared_ptr<const ColorField>, HenyeyGreenstein,
+                                           float);
+template Make<float> make_marched_medium<float>;
+template Make<Rgb> make_marched_medium<Rgb>;
+template Make<Packed16> make_marched_medium<Packed16>;
+template Make<Packed8> make_marched_medium<Packed8>;
 
 }  // namespace brume

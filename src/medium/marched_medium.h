@@ -14,8 +14,8 @@ namespace brume {
 /// random place in every step of a ray. Biased: the exponential of an uncertain optical thickness
 /// is too large on average, by more the longer the steps. `density_scale`, `albedo` and `phase` as
 /// for `make_heterogeneous_medium`.
-template <class Value>
-std::shared_ptr<const Medium> make_marched_medium(std::shared_ptr<const Grid<Value>> density,
+template <class Stored>
+std::shared_ptr<const Medium> make_marched_medium(std::shared_ptr<const Grid<Stored>> density,
                                                   float density_scale,
                                                   std::shared_ptr<const ColorField> albedo,
                                                   HenyeyGreenstein phase, float step);

@@ -103,9 +103,11 @@ Accuracy measure_accuracy(std::span<const Image> pictures, const Reference& refe
 
 RootInterval root(const Estimate& square) {
   const auto root_or_zero = [](double x) { return std::sqrt(std::max(x, 0.0)); };
-  return {.value = root_or_zero(square.value),
+  // An estimate below 0 is 0 with bad luck: its upper end is no lower than that of 0.
+  const double value = std::max(square.value, 0.0);
+  return {.value = std::sqrt(value),
           .low = root_or_zero(square.value - square.error),
-          .high = root_or_zero(square.value + square.error)};
+          .high = std::sqrt(value + square.error)};
 }
 
 }  // namespace brume

@@ -12,7 +12,7 @@ constexpr double kTargets[] = {0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001};
 double squared_bias_limit(const TrialResult& result) {
   if (!result.trial.biased) return 0.0;
   const Estimate& bias = result.accuracy.squared_bias;
-  return std::max(bias.value + bias.error, 0.0);
+  return std::max(bias.value, 0.0) + bias.error;
 }
 
 /// Half width of the interval of the cost, relative.

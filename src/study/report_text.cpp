@@ -51,6 +51,7 @@ std::string signed_text(const Estimate& estimate) {
 }
 
 std::string memory_text(std::size_t bytes) {
+  if (bytes == 0) return "none";
   if (bytes < 1'000'000) return two_digits(1e-3 * double(bytes)) + " kB";
   return two_digits(1e-6 * double(bytes)) + " MB";
 }

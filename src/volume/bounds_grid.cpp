@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/vec4.hpp>
 
+#include "volume/packed_grid.h"
+
 namespace brume {
 namespace {
 
@@ -75,6 +77,8 @@ BoundsGrid::BoundsGrid(const Grid<Value>& grid, float cell_size)
 
 template BoundsGrid::BoundsGrid(const Grid<float>&, float);
 template BoundsGrid::BoundsGrid(const Grid<Rgb>&, float);
+template BoundsGrid::BoundsGrid(const Grid<Packed16>&, float);
+template BoundsGrid::BoundsGrid(const Grid<Packed8>&, float);
 
 std::optional<IndexSegment> clip_to_grid(const Ray& ray, float t_max, const BoundsGrid& bounds,
                                          const glm::dmat4& index_from_world) {

@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "volume/packed_grid.h"
+
 namespace brume {
 namespace {
 
@@ -45,5 +47,7 @@ Vec3 Grid<Value>::wrapped(const Vec3& p) const {
 
 template class Grid<float>;
 template class Grid<Rgb>;
+template class Grid<Packed16>;
+template class Grid<Packed8>;
 
 }  // namespace brume

@@ -18,7 +18,7 @@ std::shared_ptr<const Grid<PackedScalar>> packed(const Grid<float>& grid) {
           {nanovdb::Coord(lo.x, lo.y, lo.z), nanovdb::Coord(hi.x, hi.y, hi.z)});
   return std::make_shared<const Grid<PackedScalar>>(builder.template getHandle<>(),
                                                     grid.world_from_index(), grid.box(),
-                                                    grid.interpolation(), grid.wrap());
+                                                    grid.interpolation(), Wrap::kBackground);
 }
 
 template std::shared_ptr<const Grid<Packed16>> packed(const Grid<float>&);

@@ -39,7 +39,7 @@ struct Looked<Packed<kBits>> {
 };
 }  // namespace detail
 
-/// `grid` with its scalars packed; everything else stays as it is.
+/// `grid` with its scalars packed, for lookups inside its box; elsewhere it has its background.
 template <class PackedScalar>
 std::shared_ptr<const Grid<PackedScalar>> packed(const Grid<float>& grid);
 

@@ -49,6 +49,7 @@ TEST(EstimatorSettings, TextbookIsPlainTrackingWithoutBias) {
 TEST(EstimatorSettings, BiasIsDeclaredByValue) {
   for (const auto& [assignment, value] :
        {std::pair("lookup=nearest", "nearest"), std::pair("march=0.5", "0.5"),
+        std::pair("storage=half", "half"), std::pair("storage=8bit", "8bit"),
         std::pair("similarity=16", "16"), std::pair("clamp=2.5", "2.5")}) {
     EstimatorSettings settings;
     apply_setting(assignment, settings);
@@ -56,9 +57,11 @@ TEST(EstimatorSettings, BiasIsDeclaredByValue) {
     const SettingValues expected = {{text.substr(0, text.find('=')), value}};
     EXPECT_EQ(changed_settings(settings), expected);
     EXPECT_EQ(biased_settings(settings), expected);
-    apply_setting(
-        expected.front().first == "lookup" ? "lookup=trilinear" : expected.front().first + "=off",
-        settings);
+    const std::string& name = expected.front().first;
+    apply_setting(name == "lookup"    ? "lookup=trilinear"
+                  : name == "storage" ? "storage=float"
+                                      : name + "=off",
+                  settings);
     EXPECT_THAT(biased_settings(settings), IsEmpty());
   }
 }

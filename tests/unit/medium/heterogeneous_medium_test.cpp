@@ -188,5 +188,26 @@ TEST(HeterogeneousMedium, ColoredExtinctionIsUnbiasedInEveryChannel) {
   }
 }
 
+TEST(HeterogeneousMedium, PackedVoxelsPassNearlyTheSameLight) {
+  const Ray ray{.o = {0.31f, 0.42f, -1.0f}, .d = {0.0f, 0.0f, 1.0f}};
+  for (const FieldCase& field : fields()) {
+    const auto grid = test::make_grid(field.n, field.density);
+    const double tau = quadrature(*grid, ray, 5.0);
+    for (const auto storage :
+         {TrackingSettings::Storage::k16Bit, TrackingSettings::Storage::k8Bit}) {
+      const auto medium =
+          make_heterogeneous_medium(grid, 1.0f, std::make_shared<ConstantField>(Rgb(0.5f)),
+                                    HenyeyGreenstein{.g = 0.0f}, {.storage = storage});
+      test::RunningMean T;
+      Rng rng(1);
+      for (int i = 0; i < 20000; ++i) T.add(medium->transmittance(ray, 5.0f, rng).g);
+      // A step of a block is a 255th of its largest value, 40, along a path of one unit.
+      const double rounding = storage == TrackingSettings::Storage::k8Bit ? 0.08 : 1e-3;
+      EXPECT_TRUE(test::agrees(T, std::exp(-tau), rounding)) << field.name;
+    }
+  }
+  EXPECT_EQ(majorant_violations(), 0u);
+}
+
 }  // namespace
 }  // namespace brume

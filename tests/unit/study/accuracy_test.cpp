@@ -91,10 +91,13 @@ TEST(Accuracy, NoiseOfAReferenceWithErrorLayersIsTakenOff) {
 }
 
 TEST(Accuracy, RootsOfEstimatesBelowZeroBeginAtZero) {
-  const RootInterval r = root({.value = -1.0, .error = 5.0});
-  EXPECT_EQ(r.value, 0.0);
-  EXPECT_EQ(r.low, 0.0);
-  EXPECT_EQ(r.high, 2.0);
+  const RootInterval below = root({.value = -1.0, .error = 4.0});
+  EXPECT_EQ(below.value, 0.0);
+  EXPECT_EQ(below.low, 0.0);
+  EXPECT_EQ(below.high, 2.0);
+  const RootInterval above = root({.value = 2.5, .error = 1.5});
+  EXPECT_EQ(above.low, 1.0);
+  EXPECT_EQ(above.high, 2.0);
 }
 
 }  // namespace
