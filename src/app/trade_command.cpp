@@ -158,6 +158,7 @@ int run_trade(const TradeOptions& options) {
   scene.reset();  // every trial loads its own
 
   const Glance glance = glance_at(render, full_size);
+  if (interrupt_requested()) return kExitInterrupted;
   if (!(glance.radiance > 0.0))
     throw Error(fmt::format("{}: its picture is black: there is nothing to measure", render.input));
   for (Trial& trial : design_clamping_trials(glance.radiance)) trials.push_back(std::move(trial));

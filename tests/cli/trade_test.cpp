@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <OpenImageIO/imageio.h>
-#include <sys/wait.h>
+#include <signal.h>
 
 #include <cstdlib>
 #include <fstream>
@@ -106,6 +106,15 @@ TEST_F(Trade, AReferenceOfTheUsersIsTaken) {
   EXPECT_EQ(ended.err, "");
   EXPECT_TRUE(json("report.json")["reference_spp"].is_null());
   EXPECT_EQ(json("report.json")["height"], 12);
+}
+
+TEST_F(Trade, CtrlCEndsItSoon) {
+  const Ended ended =
+      run_brume({.arguments = {"trade", "scene.xml", "--budget", "100s", "-o", "report.html"},
+                 .folder = path(""),
+                 .when_listening = [](pid_t process) { ::kill(process, SIGINT); }});
+  EXPECT_EQ(ended.exit_code, 130);
+  EXPECT_LT(ended.seconds, 50.0);
 }
 
 TEST_F(Trade, MistakesAreRefusedBeforeAnythingIsRendered) {
