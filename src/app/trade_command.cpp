@@ -167,7 +167,7 @@ int run_trade(const TradeOptions& options) {
                                   0.6 * options.budget / double(trials.size()));
 
   // Reports of many pictures take a moment too.
-  const double writing = 0.2 + 0.01 * options.budget;
+  const double writing = 0.5 + 0.02 * options.budget;
   StudyLine line(options.render.quiet);
   SceneSubject subject(render);
   const Study study = run_study(subject, trials,
