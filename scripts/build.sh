@@ -12,7 +12,7 @@ packages=(
   libopenvdb-dev libnanovdb-dev libboost-iostreams-dev libblosc-dev zlib1g-dev
   libembree-dev libopenimageio-dev openimageio-tools libopenexr-dev libimath-dev
   libpugixml-dev libtbb-dev libcli11-dev libfmt-dev nlohmann-json3-dev
-  libgtest-dev libgmock-dev clang-format
+  libbenchmark-dev libgtest-dev libgmock-dev clang-format
 )
 missing=()
 for package in "${packages[@]}"; do

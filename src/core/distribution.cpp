@@ -6,30 +6,41 @@
 
 namespace brume {
 
-Distribution1d::Distribution1d(std::span<const float> weights) : cdf_(weights.size() + 1, 0.0) {
+Distribution1d::Distribution1d(std::span<const float> weights)
+    : begin_(weights.size()), guide_(weights.size()), total_(0.0) {
   assert(!weights.empty());
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    assert(weights[i] >= 0.0f);
-    cdf_[i + 1] = cdf_[i] + weights[i];
+  for (const float weight : weights) {
+    assert(weight >= 0.0f);
+    total_ += weight;
   }
-  total_ = cdf_.back();
-  for (std::size_t i = 0; i < cdf_.size(); ++i)
-    cdf_[i] = total_ > 0.0 ? cdf_[i] / total_ : double(i) / double(size());
+  double sum = 0.0;
+  for (std::size_t i = 0; i < size(); ++i) {
+    const double cdf = total_ > 0.0 ? sum / total_ : double(i) / double(size());
+    begin_[i] = static_cast<std::uint32_t>(std::min(cdf * 0x1p32, 0x1p32 - 1.0));
+    sum += weights[i];
+  }
+  std::uint32_t index = 0;
+  for (std::size_t i = 0; i < size(); ++i) {
+    while (double(end(index)) * 0x1p-32 <= double(i) / double(size())) ++index;
+    guide_[i] = index;
+  }
 }
 
 float Distribution1d::probability(std::size_t index) const {
-  return static_cast<float>(cdf_[index + 1] - cdf_[index]);
+  return static_cast<float>(double(end(index) - begin_[index]) * 0x1p-32);
 }
 
 Distribution1d::Sample Distribution1d::sample(float u) const {
-  // The last entry that is <= u starts an interval of positive width.
-  const auto above = std::upper_bound(cdf_.begin(), cdf_.end() - 1, double(u));
-  const std::size_t index = std::size_t(above - cdf_.begin()) - 1;
-  const double width = cdf_[index + 1] - cdf_[index];
-  const double offset = (u - cdf_[index]) / width;
+  // The guide leads to the interval or a few before it (Chen and Asau 1974).
+  const auto target = static_cast<std::uint64_t>(u * 0x1p32f);
+  std::size_t index = guide_[std::min(std::size_t(u * float(size())), size() - 1)];
+  while (begin_[index] > target) --index;  // u * size was rounded up
+  while (end(index) <= target) ++index;
+  const double width = double(end(index) - begin_[index]);
+  const double offset = double(target - begin_[index]) / width;
   const float x = static_cast<float>((double(index) + offset) / double(size()));
   return {.x = std::min(x, kOneMinusEpsilon),
-          .pdf = float(width * double(size())),
+          .pdf = float(width * 0x1p-32 * double(size())),
           .index = index,
           .offset = std::min(static_cast<float>(offset), kOneMinusEpsilon)};
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -25,11 +26,17 @@ class Distribution1d {
   /// Probability of weight `index`.
   float probability(std::size_t index) const;
   double total() const { return total_; }
-  std::size_t size() const { return cdf_.size() - 1; }
+  std::size_t size() const { return begin_.size(); }
 
  private:
-  std::vector<double> cdf_;  // [size + 1], from 0 to 1
-  double total_;             // sum of the weights
+  /// Where the interval of a weight ends in the CDF, in units of 2^-32.
+  std::uint64_t end(std::size_t index) const {
+    return index + 1 < begin_.size() ? begin_[index + 1] : std::uint64_t(1) << 32;
+  }
+
+  std::vector<std::uint32_t> begin_;  // [size] where intervals begin in the CDF, in 2^-32
+  std::vector<std::uint32_t> guide_;  // [size] the interval that i / size lies in
+  double total_;                      // sum of the weights
 };
 
 /// Piecewise-constant density over [0, 1)^2: rows of `width` weights, row by row from y = 0.

@@ -241,12 +241,9 @@ void PathIntegrator::add_emission(Path& path, const Hit& hit, Sampler& sampler) 
 
 void PathIntegrator::add_environment(Path& path) const {
   const LightSet& lights = scene_.lights();
-  const float pdf_light =
-      lights.environment_pdf(path.vertex, path.ray.d) * light_choice(path, lights.size(), 1.0f);
-  gather(path,
-         path.beta * lights.environment_radiance(path.ray.d) *
-             power_heuristic(path.pdf_dir, pdf_light),
-         path.depth);
+  const EnvironmentLight::View view = lights.environment_view(path.vertex, path.ray.d);
+  const float pdf_light = view.pdf * light_choice(path, lights.size(), 1.0f);
+  gather(path, path.beta * view.L * power_heuristic(path.pdf_dir, pdf_light), path.depth);
 }
 
 float PathIntegrator::light_choice(const Path& path, std::size_t light, float p_choice) const {

@@ -127,6 +127,9 @@ std::vector<Setting> make_table() {
           "control", kOnOff, "the minimum of a cell is passed in closed form, without lookups",
           [](auto& s) -> auto& { return s.tracking.control; }),
       unbiased_choice(
+          "roulette", kOnOff, "estimates of transmittance end early once they have become small",
+          [](auto& s) -> auto& { return s.tracking.roulette; }),
+      unbiased_choice(
           "near-lights", kOnOff, "flights also look for light at their points close to lamps",
           [](auto& s) -> auto& { return s.lighting.near_lights; }),
       unbiased_choice(

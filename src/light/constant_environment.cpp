@@ -13,8 +13,8 @@ std::optional<LightSample> ConstantEnvironment::sample(const Vec3& /*p*/, const 
                      .pdf = 1.0f / (4.0f * kPi)};
 }
 
-float ConstantEnvironment::pdf(const Vec3& /*d*/) const {
-  return 1.0f / (4.0f * kPi);
+EnvironmentLight::View ConstantEnvironment::view(const Vec3& /*d*/) const {
+  return {.L = radiance_, .pdf = 1.0f / (4.0f * kPi)};
 }
 
 float ConstantEnvironment::importance(const Vec3& /*p*/) const {

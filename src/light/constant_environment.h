@@ -13,8 +13,7 @@ class ConstantEnvironment final : public EnvironmentLight {
 
   std::optional<LightSample> sample(const Vec3& p, const Vec2& u) const override;
   float importance(const Vec3& p) const override;
-  Rgb radiance(const Vec3& /*d*/) const override { return radiance_; }
-  float pdf(const Vec3& d) const override;
+  View view(const Vec3& d) const override;
 
  private:
   Rgb radiance_;  // [W/(m^2 sr)]

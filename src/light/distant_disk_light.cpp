@@ -35,12 +35,9 @@ std::optional<LightSample> DistantDiskLight::sample(const Vec3& /*p*/, const Vec
                      .pdf = pdf_};
 }
 
-Rgb DistantDiskLight::radiance(const Vec3& d) const {
-  return one_minus_cos(d, frame_.n) <= one_minus_cos_ ? radiance_ : Rgb{0.0f};
-}
-
-float DistantDiskLight::pdf(const Vec3& d) const {
-  return one_minus_cos(d, frame_.n) <= one_minus_cos_ ? pdf_ : 0.0f;
+EnvironmentLight::View DistantDiskLight::view(const Vec3& d) const {
+  if (one_minus_cos(d, frame_.n) > one_minus_cos_) return {.L = Rgb{0.0f}, .pdf = 0.0f};
+  return {.L = radiance_, .pdf = pdf_};
 }
 
 float DistantDiskLight::importance(const Vec3& /*p*/) const {

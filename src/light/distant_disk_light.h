@@ -16,8 +16,7 @@ class DistantDiskLight final : public EnvironmentLight {
 
   std::optional<LightSample> sample(const Vec3& p, const Vec2& u) const override;
   float importance(const Vec3& p) const override;
-  Rgb radiance(const Vec3& d) const override;
-  float pdf(const Vec3& d) const override;
+  View view(const Vec3& d) const override;
 
  private:
   Frame frame_;          // +Z toward the centre of the disk

@@ -9,10 +9,15 @@ namespace brume {
 /// everywhere.
 class EnvironmentLight : public Light {
  public:
-  /// Seen along the unit direction `d`, away from the viewer [W/(m^2 sr)].
-  virtual Rgb radiance(const Vec3& d) const = 0;
-  /// Density of `sample` for `d` [1/sr]; positive wherever `radiance` is not black.
-  virtual float pdf(const Vec3& d) const = 0;
+  struct View {
+    Rgb L;      // [W/(m^2 sr)]
+    float pdf;  // density of `sample` [1/sr]; positive wherever L is not black
+  };
+  /// Along the unit direction `d`, away from the viewer.
+  virtual View view(const Vec3& d) const = 0;
+
+  Rgb radiance(const Vec3& d) const { return view(d).L; }
+  float pdf(const Vec3& d) const { return view(d).pdf; }
 };
 
 }  // namespace brume

@@ -67,10 +67,11 @@ EnvironmentMap::EnvironmentMap(std::vector<Rgb> pixels, std::size_t width, std::
       height_(height),
       pixels_(scaled(std::move(pixels), scale)),
       half_versine_(half_versines(height)),
-      to_world_(to_world),
-      to_local_(glm::inverse(to_world_)),
+      to_local_(glm::inverse(glm::dmat3(to_world))),
+      to_world_(glm::dmat3(to_world) / glm::length(glm::dvec3(to_world[0]))),
       distribution_(cell_distribution()),
-      flux_(distribution_.total()) {
+      flux_(distribution_.total()),
+      inverse_flux_(flux_ > 0.0 ? float(1.0 / flux_) : 0.0f) {
   assert(width >= 1 && height >= 2 && pixels_.size() == width * height);
 }
 
@@ -97,21 +98,25 @@ EnvironmentMap::Corners EnvironmentMap::corners(const Cell& cell) const {
           .p11 = below[next_column]};
 }
 
+// Angles are computed in float, which resolves a pixel of a picture 8192 wide to 1/1000. Half
+// versines, whose differences between neighbouring rows near a pole are small, are in double.
 std::pair<EnvironmentMap::Cell, EnvironmentMap::Offset> EnvironmentMap::locate(
     const Vec3& d) const {
-  const glm::dvec3 local = to_local_ * glm::dvec3(d);
-  const double x = std::atan2(local.x, -local.z) * (0.5 / M_PI) * double(width_) - 0.5;
-  const double column = std::floor(x);
-  const double wrapped = column < 0.0 ? column + double(width_) : column;
+  const glm::dvec3 local = glm::normalize(to_local_ * glm::dvec3(d));
+  const float x = std::atan2(float(local.x), -float(local.z)) * (0.5f / kPi) * float(width_) - 0.5f;
+  const float column = std::floor(x);
+  const float wrapped = column < 0.0f ? column + float(width_) : column;
 
-  const double theta = std::atan2(std::hypot(local.x, local.z), local.y);
-  const double y = theta / M_PI * double(height_ - 1);
+  const double across = local.x * local.x + local.z * local.z;
+  const float theta = std::atan2(float(std::sqrt(across)), float(local.y));
+  const float y = theta * (1.0f / kPi) * float(height_ - 1);
   const std::size_t row = std::min(std::size_t(y), height_ - 2);
-  const double cosine =
-      (half_versine(theta) - half_versine_[row]) / (half_versine_[row + 1] - half_versine_[row]);
+  const double h =
+      local.y > 0.0 ? 0.5 * across / (1.0 + local.y) : 0.5 * (1.0 - local.y);  // no cancellation
+  const double cosine = (h - half_versine_[row]) / (half_versine_[row + 1] - half_versine_[row]);
   return {{.column = std::min(std::size_t(wrapped), width_ - 1), .row = row},
-          {.azimuth = static_cast<float>(x - column),
-           .polar_angle = static_cast<float>(y - double(row)),
+          {.azimuth = x - column,
+           .polar_angle = std::min(y - float(row), 1.0f),
            .cosine = static_cast<float>(std::clamp(cosine, 0.0, 1.0))}};
 }
 
@@ -128,34 +133,32 @@ std::optional<LightSample> EnvironmentMap::sample(const Vec3& /*p*/, const Vec2&
   const float azimuth =
       sample_linear(interpolate(l00, l10, cosine), interpolate(l01, l11, cosine), chosen.offset.x);
 
-  const double h = half_versine_[cell.row] +
-                   double(cosine) * (half_versine_[cell.row + 1] - half_versine_[cell.row]);
-  const double theta = 2.0 * std::asin(std::sqrt(std::min(h, 1.0)));
-  const double phi = 2.0 * M_PI * (double(cell.column) + 0.5 + double(azimuth)) / double(width_);
-  const double polar_angle = theta / M_PI * double(height_ - 1) - double(cell.row);
-  const Offset offset{.azimuth = azimuth,
-                      .polar_angle = static_cast<float>(std::clamp(polar_angle, 0.0, 1.0)),
-                      .cosine = cosine};
+  // From half the polar angle, whose sine and cosine are known without cancellation.
+  const double h =
+      std::min(half_versine_[cell.row] +
+                   double(cosine) * (half_versine_[cell.row + 1] - half_versine_[cell.row]),
+               1.0);
+  const float sin_half = std::sqrt(float(h)), cos_half = std::sqrt(float(1.0 - h));
+  const float theta = 2.0f * std::atan2(sin_half, cos_half);
+  const float polar_angle = theta * (1.0f / kPi) * float(height_ - 1) - float(cell.row);
+  const Offset offset{
+      .azimuth = azimuth, .polar_angle = std::clamp(polar_angle, 0.0f, 1.0f), .cosine = cosine};
 
-  const double density = double(c.density(offset)) / flux_;
-  if (!(density > 0.0)) return std::nullopt;
-  const glm::dvec3 local(std::sin(theta) * std::sin(phi), std::cos(theta),
-                         -std::sin(theta) * std::cos(phi));
-  return LightSample{.d = Vec3(glm::normalize(to_world_ * local)),
+  const float density = c.density(offset) * inverse_flux_;
+  if (!(density > 0.0f)) return std::nullopt;
+  const float phi = 2.0f * kPi * ((float(cell.column) + 0.5f + azimuth) / float(width_));
+  const float sin_theta = 2.0f * sin_half * cos_half;
+  const Vec3 local(sin_theta * std::sin(phi), float(1.0 - 2.0 * h), -sin_theta * std::cos(phi));
+  return LightSample{.d = glm::normalize(to_world_ * local),
                      .distance = kInfinity,
-                     .weight = c.radiance(offset) / static_cast<float>(density),
-                     .pdf = static_cast<float>(density)};
+                     .weight = c.radiance(offset) / density,
+                     .pdf = density};
 }
 
-Rgb EnvironmentMap::radiance(const Vec3& d) const {
+EnvironmentLight::View EnvironmentMap::view(const Vec3& d) const {
   const auto [cell, offset] = locate(d);
-  return corners(cell).radiance(offset);
-}
-
-float EnvironmentMap::pdf(const Vec3& d) const {
-  if (!(flux_ > 0.0)) return 0.0f;
-  const auto [cell, offset] = locate(d);
-  return static_cast<float>(double(corners(cell).density(offset)) / flux_);
+  const Corners c = corners(cell);
+  return {.L = c.radiance(offset), .pdf = c.density(offset) * inverse_flux_};
 }
 
 float EnvironmentMap::importance(const Vec3& /*p*/) const {

@@ -31,8 +31,7 @@ class EnvironmentMap final : public EnvironmentLight {
 
   std::optional<LightSample> sample(const Vec3& p, const Vec2& u) const override;
   float importance(const Vec3& p) const override;
-  Rgb radiance(const Vec3& d) const override;
-  float pdf(const Vec3& d) const override;
+  View view(const Vec3& d) const override;
 
  private:
   /// The rectangle between four pixels.
@@ -52,9 +51,11 @@ class EnvironmentMap final : public EnvironmentLight {
   std::size_t width_, height_;
   std::vector<Rgb> pixels_;           // [height][width] radiance [W/(m^2 sr)]
   std::vector<double> half_versine_;  // [height] (1 - cos) / 2 of each row's polar angle
-  glm::dmat3 to_world_, to_local_;
+  glm::dmat3 to_local_;
+  glm::mat3 to_world_;           // of unit vectors
   Distribution2d distribution_;  // of cells, by the flux through them
   double flux_;                  // luminance integrated over the sphere
+  float inverse_flux_;           // 0 where there is none
 };
 
 }  // namespace brume

@@ -16,22 +16,28 @@ constexpr float kUniformPart = 0.2f;
 LightSet::LightSet(std::vector<std::shared_ptr<const Light>> lights,
                    std::vector<std::shared_ptr<const EnvironmentLight>> environments)
     : lights_(std::move(lights)), environments_(std::move(environments)) {
+  far_importance_.resize(size(), 0.0f);
   for (std::size_t i = 0; i < size(); ++i) {
-    if (i < lights_.size() && lights_[i]->pivot())
+    if (has_pivot(i)) {
       with_pivot_.push_back(i);
-    else
-      importance_without_pivot_ += importance(Vec3(0.0f), i);
+      continue;
+    }
+    far_importance_[i] = i < lights_.size()
+                             ? lights_[i]->importance(Vec3(0.0f))
+                             : environments_[i - lights_.size()]->importance(Vec3(0.0f));
+    importance_without_pivot_ += far_importance_[i];
   }
 }
 
 float LightSet::importance(const Vec3& p, std::size_t index) const {
-  return index < lights_.size() ? lights_[index]->importance(p)
-                                : environments_[index - lights_.size()]->importance(p);
+  // Only lights that are somewhere look different from elsewhere.
+  return far_importance_[index] > 0.0f || index >= lights_.size() ? far_importance_[index]
+                                                                  : lights_[index]->importance(p);
 }
 
 float LightSet::total_importance(const Vec3& p) const {
-  float total = 0.0f;
-  for (std::size_t i = 0; i < size(); ++i) total += importance(p, i);
+  float total = importance_without_pivot_;
+  for (const std::size_t i : with_pivot_) total += lights_[i]->importance(p);
   return total;
 }
 
@@ -82,8 +88,9 @@ std::optional<LightSet::Arrival> LightSet::sample(const Vec3& p, float u_choice,
   for (std::size_t i = 0; i < environments_.size(); ++i) {
     const std::size_t index = lights_.size() + i;
     if (index == chosen) continue;
-    L += environments_[i]->radiance(s->d);
-    pdf += probability(importance(p, index), total) * environments_[i]->pdf(s->d);
+    const EnvironmentLight::View other = environments_[i]->view(s->d);
+    L += other.L;
+    pdf += probability(far_importance_[index], total) * other.pdf;
   }
   s->weight = L / pdf;
   s->pdf = pdf;
@@ -96,13 +103,15 @@ Rgb LightSet::environment_radiance(const Vec3& d) const {
   return L;
 }
 
-float LightSet::environment_pdf(const Vec3& from, const Vec3& d) const {
-  if (environments_.empty()) return 0.0f;
+EnvironmentLight::View LightSet::environment_view(const Vec3& from, const Vec3& d) const {
   const float total = size() > 1 ? total_importance(from) : 0.0f;
-  float pdf = 0.0f;
-  for (std::size_t i = 0; i < environments_.size(); ++i)
-    pdf += probability(importance(from, lights_.size() + i), total) * environments_[i]->pdf(d);
-  return pdf;
+  EnvironmentLight::View sum{.L = Rgb{0.0f}, .pdf = 0.0f};
+  for (std::size_t i = 0; i < environments_.size(); ++i) {
+    const EnvironmentLight::View view = environments_[i]->view(d);
+    sum.L += view.L;
+    sum.pdf += probability(far_importance_[lights_.size() + i], total) * view.pdf;
+  }
+  return sum;
 }
 
 }  // namespace brume

@@ -39,10 +39,11 @@ class LightSet {
   /// density of `sample` for a light that a ray found by itself.
   float probability(const Vec3& p, std::size_t index) const;
 
-  /// Seen along `d` by a ray that leaves the scene [W/(m^2 sr)].
+  /// Seen along `d` by a ray that leaves the scene from `from`: all environments together, with the
+  /// density of `sample` at `from` for them.
+  EnvironmentLight::View environment_view(const Vec3& from, const Vec3& d) const;
+  /// Its radiance alone [W/(m^2 sr)].
   Rgb environment_radiance(const Vec3& d) const;
-  /// Density of `sample` at `from` for the environment along `d` [1/sr].
-  float environment_pdf(const Vec3& from, const Vec3& d) const;
 
   /// Light number `index`, which is not an environment.
   const Light& light(std::size_t index) const { return *lights_[index]; }
@@ -62,6 +63,7 @@ class LightSet {
   std::vector<std::shared_ptr<const Light>> lights_;
   std::vector<std::shared_ptr<const EnvironmentLight>> environments_;
   std::vector<std::size_t> with_pivot_;  // indices in lights_
+  std::vector<float> far_importance_;    // [light] of those without a pivot, 0 for the others
   float importance_without_pivot_ = 0.0f;
 };
 

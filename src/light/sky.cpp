@@ -49,7 +49,9 @@ class PreethamSky {
     for (int i = 0; i < 3; ++i) scale_[i] = at_zenith[i] / perez(perez_[i], 1.0, sun);
   }
 
-  /// Seen along the unit direction `d`, on or above the horizon.
+  /// Seen along the unit direction `d`, on or above the horizon. A sky is smooth: more pixels would
+  /// change it less than its model is worth, and no
+  /// longer fit the nearer caches.
   Rgbd radiance(const glm::dvec3& d) const {
     const double gamma = std::acos(std::clamp(glm::dot(d, to_sun_), -1.0, 1.0));
     std::array<double, 3> Yxy;
@@ -99,7 +101,7 @@ Rgbd sun_illuminance(double cos_zenith, double turbidity) {
 
 /// Rows and columns of the picture of the sky. The number of rows is odd, so that one of them is
 /// the horizon.
-constexpr std::size_t kWidth = 512, kHeight = 257, kHorizon = kHeight / 2;
+constexpr std::size_t kWidth = 256, kHeight = 129, kHorizon = kHeight / 2;
 
 glm::dvec3 pixel_direction(std::size_t column, std::size_t row) {
   const double phi = 2.0 * M_PI * (double(column) + 0.5) / double(kWidth);

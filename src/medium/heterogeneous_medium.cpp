@@ -13,6 +13,7 @@
 #include "medium/similar_medium.h"
 #include "volume/bounds_grid.h"
 #include "volume/packed_grid.h"
+#include "volume/voxel_blocks.h"
 
 namespace brume {
 namespace {
@@ -28,7 +29,8 @@ float control(const ValueRange& /*range*/, const Rgb& /*value type*/) {
 
 /// Optical thickness that a flight passes before its next tentative collision; `u` in [0, 1).
 float sample_optical_thickness(float u) {
-  return -std::log1p(-u);
+  // u lies on the grid of 2^-24, where 1 - u is exact: the logarithm loses nothing to log1p.
+  return -std::log(1.0f - u);
 }
 
 // What a tentative collision turns into under the majorant: whether it is real. Multiplies
@@ -94,6 +96,16 @@ float largest(const Rgb& v) {
   return max_component(v);
 }
 
+/// Packed voxels are read through the tree, others through a table of its blocks.
+template <class Stored>
+constexpr bool kHasBlocks = std::is_same_v<Stored, typename detail::Looked<Stored>::type>;
+
+struct NoBlocks {
+  template <class Grid>
+  explicit NoBlocks(const Grid& /*grid*/) {}
+  std::size_t memory_bytes() const { return 0; }
+};
+
 /// `Stored` is what voxels are kept as: float, Rgb, or a packed scalar.
 template <class Stored>
 class HeterogeneousMedium final : public Medium {
@@ -109,9 +121,11 @@ class HeterogeneousMedium final : public Medium {
         only_absorbs_(scatters_nothing(*albedo, phase)),
         albedo_(std::move(albedo)),
         phase_(phase),
+        voxels_(*density_),
         bounds_(*density_, cell_size(*density_, settings)),
         control_scale_(settings.control ? density_scale_ : 0.0f),
-        lookup_(voxel_lookup(*density_, settings)) {
+        lookup_(voxel_lookup(*density_, settings)),
+        roulette_below_(settings.roulette ? 0.1f : 0.0f) {
     assert(std::isfinite(bounds_.total().max * density_scale_));
   }
 
@@ -191,15 +205,16 @@ class HeterogeneousMedium final : public Medium {
   MediumSummary summary() const override {
     const glm::ivec3 voxels(density_->box().size() + 0.5f);
     const glm::ivec3& cells = bounds_.resolution();
-    return {.description = fmt::format(
-                "grid of {} x {} x {} voxels, extinction {:g} to {:g} per unit, bounded in {} x {} "
-                "x {} cells, g {:g}",
-                voxels.x, voxels.y, voxels.z, bounds_.total().min * density_scale_,
-                bounds_.total().max * density_scale_, cells.x, cells.y, cells.z, phase_.g),
-            .scatters = bounds_.total().max > 0.0f && !only_absorbs_,
-            .is_tracked = true,
-            .is_chromatic = std::is_same_v<Value, Rgb>,
-            .memory_bytes = density_->memory_bytes() + bounds_.memory_bytes()};
+    return {
+        .description = fmt::format(
+            "grid of {} x {} x {} voxels, extinction {:g} to {:g} per unit, bounded in {} x {} "
+            "x {} cells, g {:g}",
+            voxels.x, voxels.y, voxels.z, bounds_.total().min * density_scale_,
+            bounds_.total().max * density_scale_, cells.x, cells.y, cells.z, phase_.g),
+        .scatters = bounds_.total().max > 0.0f && !only_absorbs_,
+        .is_tracked = true,
+        .is_chromatic = std::is_same_v<Value, Rgb>,
+        .memory_bytes = density_->memory_bytes() + voxels_.memory_bytes() + bounds_.memory_bytes()};
   }
 
  private:
@@ -223,16 +238,18 @@ class HeterogeneousMedium final : public Medium {
       case VoxelLookup::kStochastic:
         break;
     }
-    return lookup.stochastic(p, rng);
+    if constexpr (kHasBlocks<Stored>)
+      return voxels_.stochastic(p, rng);
+    else
+      return lookup.stochastic(p, rng);
   }
 
   /// Unbiased end of an estimate that has become small; sets T to 0 when it ends.
-  static bool survives_roulette(Value& T, Rng& rng) {
-    constexpr float kThreshold = 0.1f;
+  bool survives_roulette(Value& T, Rng& rng) const {
     const float remaining = largest(T);
-    if (remaining >= kThreshold) return true;
-    if (rng.next_float() * kThreshold < remaining) {
-      T *= kThreshold / remaining;
+    if (remaining >= roulette_below_) return true;
+    if (rng.next_float() * roulette_below_ < remaining) {
+      T *= roulette_below_ / remaining;
       return true;
     }
     T = Value(0.0f);
@@ -244,9 +261,11 @@ class HeterogeneousMedium final : public Medium {
   bool only_absorbs_;
   std::shared_ptr<const ColorField> albedo_;
   HenyeyGreenstein phase_;
+  std::conditional_t<kHasBlocks<Stored>, VoxelBlocks<Stored>, NoBlocks> voxels_;
   BoundsGrid bounds_;
   float control_scale_;  // [1/unit] per density; 0 without a control
   VoxelLookup lookup_;
+  float roulette_below_;  // transmittance; 0 without roulette
 };
 
 template <class Stored>

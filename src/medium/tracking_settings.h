@@ -13,6 +13,7 @@ struct TrackingSettings {
   Lookup lookup = Lookup::kStochastic;  // one voxel chosen by its weight, or all eight;
                                         // the nearest one is biased
   bool control = true;                  // the minimum of a cell is passed in closed form
+  bool roulette = true;                 // ends transmittances that have become small
   float march_step = 0.0f;              // [voxels] of fixed steps instead, biased; 0: none
   Storage storage = Storage::kFloat;    // of scalar grids; fewer bits are biased
   bool similar_media = false;           // built for light that has scattered often, see Medium

@@ -40,6 +40,7 @@ TEST(EstimatorSettings, TextbookIsPlainTrackingWithoutBias) {
   EXPECT_EQ(settings.tracking.bounds, TrackingSettings::Bounds::kGlobal);
   EXPECT_EQ(settings.tracking.lookup, TrackingSettings::Lookup::kTrilinear);
   EXPECT_FALSE(settings.tracking.control);
+  EXPECT_FALSE(settings.tracking.roulette);
   EXPECT_FALSE(settings.lighting.near_lights);
   EXPECT_FALSE(settings.lighting.shadow_roulette);
   EXPECT_EQ(settings.numbers, EstimatorSettings::Numbers::kIndependent);
@@ -68,8 +69,8 @@ TEST(EstimatorSettings, BiasIsDeclaredByValue) {
 
 TEST(EstimatorSettings, ALaterAssignmentReplacesAnEarlierOne) {
   EstimatorSettings settings;
-  for (const char* assignment : {"textbook", "control=on", "lookup=stochastic", "bounds=cells",
-                                 "near-lights=on", "shadow-roulette=on"})
+  for (const char* assignment : {"textbook", "control=on", "roulette=on", "lookup=stochastic",
+                                 "bounds=cells", "near-lights=on", "shadow-roulette=on"})
     apply_setting(assignment, settings);
   EXPECT_THAT(changed_settings(settings),
               UnorderedElementsAre(std::pair("sampler", "independent")));

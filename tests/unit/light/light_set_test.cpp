@@ -58,7 +58,7 @@ TEST(LightSet, TreatsOverlappingEnvironmentsAsOne) {
     const auto s = sampler_of(lights)(rng);
     if (s->pdf == kInfinity) continue;
     ++environment_samples;
-    const float pdf = lights.environment_pdf(Vec3(0.0f), s->d);
+    const float pdf = lights.environment_view(Vec3(0.0f), s->d).pdf;
     const Rgb L = lights.environment_radiance(s->d);
     if (std::abs(s->pdf / pdf - 1.0f) > 1e-3f) {
       ++off;  // at the edge of the disk, by rounding
@@ -81,7 +81,7 @@ TEST(LightSet, EnvironmentSamplesFollowTheMixture) {
         if (!s) return std::nullopt;
         return test::DirectionSample{.d = s->d, .pdf = s->pdf};
       },
-      [&](const Vec3& d) { return lights.environment_pdf(Vec3(0.0f), d); }, {.axis = kToSun}));
+      [&](const Vec3& d) { return lights.environment_view(Vec3(0.0f), d).pdf; }, {.axis = kToSun}));
 }
 
 TEST(LightSet, MultipleImportanceSamplingCountsEveryLightOnce) {
@@ -102,7 +102,7 @@ TEST(LightSet, MultipleImportanceSamplingCountsEveryLightOnce) {
     }
     const Vec3 local = sample_cosine_hemisphere(rng.next_vec2());
     const Vec3 d = frame.to_world(local);
-    const float pdf_light = lights.environment_pdf(Vec3(0.0f), d);
+    const float pdf_light = lights.environment_view(Vec3(0.0f), d).pdf;
     sum += lights.environment_radiance(d).r * kPi * power_heuristic(local.z / kPi, pdf_light);
     E.add(sum);
   }
@@ -130,7 +130,7 @@ TEST(LightSet, WithoutLightsIsDark) {
   const LightSet lights({}, {});
   EXPECT_FALSE(lights.sample(Vec3(0.0f), 0.5f, Vec2(0.5f)));
   EXPECT_TRUE(is_black(lights.environment_radiance({0, 1, 0})));
-  EXPECT_EQ(lights.environment_pdf(Vec3(0.0f), {0, 1, 0}), 0.0f);
+  EXPECT_EQ(lights.environment_view(Vec3(0.0f), {0, 1, 0}).pdf, 0.0f);
 }
 
 }  // namespace

@@ -118,9 +118,9 @@ TEST(HeterogeneousMedium, EverySettingHasTheSameExpectation) {
   for (const Bounds bounds : {Bounds::kCells, Bounds::kGlobal})
     for (const Lookup lookup : {Lookup::kStochastic, Lookup::kTrilinear})
       for (const bool control : {true, false}) {
-        const auto medium =
-            make_heterogeneous_medium(grid, 0.2f, std::make_shared<ConstantField>(Rgb(1.0f)), {},
-                                      {.bounds = bounds, .lookup = lookup, .control = control});
+        const auto medium = make_heterogeneous_medium(
+            grid, 0.2f, std::make_shared<ConstantField>(Rgb(1.0f)), {},
+            {.bounds = bounds, .lookup = lookup, .control = control, .roulette = control});
         test::RunningMean estimate, passed;
         Rng rng(17);
         for (int i = 0; i < 100000; ++i) {
