@@ -57,7 +57,7 @@ void ray_query(benchmark::State& state, Query&& query) {
   std::vector<std::shared_ptr<const Shape>> spheres;
   for (int i = 0; i < int(state.range(0)); ++i)
     spheres.push_back(
-        std::make_shared<Sphere>(10.0f * sample_uniform_sphere(rng.next_vec2()), 0.5f));
+        std::make_shared<Sphere>(10.0f * sample_uniform_sphere(rng.next_vec2()), 0.5f, false));
   const RayQueries queries(spheres);
   for (auto _ : state)
     benchmark::DoNotOptimize(
