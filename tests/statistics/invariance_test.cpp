@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(
 // against b; sent back, it is the beam along b, and the view that it reaches is along a.
 TEST(Reciprocity, OfABodyOfEverything) {
   const DensityField field{.n = {5, 4, 6}, .voxel = [](int x, int y, int z) {
-                             return 3.0 * ((x * y + 2 * z) % 3) + 0.4 * x;
+                             return 0.5 * ((x * y + 2 * z) % 3) + 0.1 * x;
                            }};
   const glm::dvec3 a = glm::normalize(glm::dvec3(1.0, -0.6, 0.3));
   const glm::dvec3 b = glm::normalize(glm::dvec3(-0.2, 0.5, 1.0));
@@ -99,8 +99,8 @@ TEST(Reciprocity, OfABodyOfEverything) {
              fmt::format(R"(<emitter type="directional"><vector name="direction" x="{:.17g}" )"
                          R"(y="{:.17g}" z="{:.17g}"/></emitter>)",
                          beam.x, beam.y, beam.z) +
-             R"(<shape type="sphere"><point name="center" x="0.3" y="-0.2" z="0.2"/>)"
-             R"(<float name="radius" value="0.4"/><bsdf type="diffuse">)"
+             R"(<shape type="cube"><transform name="to_world"><scale value="0.5, 0.15, 0.3"/>)"
+             R"(<translate value="0.3, -0.2, 0.2"/></transform><bsdf type="diffuse">)"
              R"(<float name="reflectance" value="0.7"/></bsdf></shape>)"
              R"(<medium type="heterogeneous"><volume name="sigma_t" type="gridvolume">)"
              R"(<string name="filename" value="g.vol"/><transform name="to_world">)"
@@ -110,7 +110,7 @@ TEST(Reciprocity, OfABodyOfEverything) {
          .write_files = [&](const TemporaryFolder& f) { f.write("g.vol", field.vol()); }});
   };
   const RunningMean one = seen(a, b), other = seen(b, a);
-  expect_law({.name = "a cloud around a diffuse sphere, beam and view exchanged",
+  expect_law({.name = "a cloud around a diffuse box, beam and view exchanged",
               .source = "reciprocity: the value before the exchange",
               .expected = one.mean(),
               .expected_error = one.standard_error()},
