@@ -157,7 +157,7 @@ BUGS = [
         "Moved.SlabsLookTheSame/1"),
     Bug("rotation", "an environment is turned the wrong way",
         "src/light/environment_map.cpp",
-        "glm::inverse(to_world_)", "to_world_",
+        "glm::inverse(glm::dmat3(to_world))", "glm::dmat3(to_world)",
         "Moved.SlabsLookTheSame/4"),
     Bug("translation", "rays leave surfaces by a rounding of the whole width",
         "src/geometry/hit.h",
