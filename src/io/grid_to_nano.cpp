@@ -92,7 +92,7 @@ class NanoWriter {
   Node* write_internal(Open& open, Node*& place, Child*& child_place) {
     Node* node = place++;
     auto& nano = *node->data();
-    std::memset(&nano, 0, sizeof nano);
+    std::memset(static_cast<void*>(&nano), 0, sizeof nano);
     nano.setOrigin(to_nano(open.origin()));
     for (openvdb::Index n = 0; n < Open::NUM_VALUES; ++n) {
       if (!open.isChildMaskOn(n)) {
@@ -121,7 +121,7 @@ class NanoWriter {
     std::memset(nano.mBBoxDif, 0, sizeof nano.mBBoxDif);
     nano.mFlags = 0;
     static_assert(sizeof nano.mValueMask == sizeof open.getValueMask());  // 512 bits, x slowest
-    std::memcpy(&nano.mValueMask, &open.getValueMask(), sizeof nano.mValueMask);
+    std::memcpy(static_cast<void*>(&nano.mValueMask), &open.getValueMask(), sizeof nano.mValueMask);
     const auto* values = open.buffer().data();
     for (openvdb::Index i = 0; i < Open::SIZE; ++i) nano.mValues[i] = to_nano(values[i]);
     nano.mMinimum = nano.mMaximum = {};

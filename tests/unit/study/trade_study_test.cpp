@@ -20,6 +20,13 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
+/// Without the encoded pictures, which may spell anything.
+std::string without_pictures(std::string html) {
+  for (std::size_t at = html.find("base64,"); at != html.npos; at = html.find("base64,", at + 1))
+    html.erase(at + 7, html.find('"', at) - at - 7);
+  return html;
+}
+
 /// Noise of variance 1 a sample around 1, or around 0.9 where the trial is biased. A sample of all
 /// pixels takes a tenth of a millisecond, or a twentieth of a second of a trial called "slow".
 class NoiseSubject final : public Subject {
@@ -108,8 +115,9 @@ TEST(TradeReport, HoldsEveryRowAndNothingFromElsewhere) {
   for (const char* part : {"<!DOCTYPE html>", "dark&lt;&amp;", "a &quot;b&quot;.xml",
                            "slow: ", "data:image/png;base64,iVBOR", "<svg", "</html>"})
     EXPECT_THAT(html, HasSubstr(part));
+  const std::string text = without_pictures(html);
   for (const char* part : {"http", "<script", "dark<", "nan", "inf"})
-    EXPECT_THAT(html, Not(HasSubstr(part)));
+    EXPECT_THAT(text, Not(HasSubstr(part)));
 
   const std::string csv = csv_report(study, info);
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 4);

@@ -16,7 +16,7 @@ float rough(int x, int y, int z) {
 TEST(BoundsGrid, HoldsEveryInterpolatedValueOfEveryCell) {
   for (const Interpolation interpolation : {Interpolation::kTrilinear, Interpolation::kNearest}) {
     const auto grid = test::make_grid({13, 9, 6}, rough, glm::dmat4(1.0), interpolation);
-    for (const int cell_size : {1, 3, 4, 8, 32}) {
+    for (const float cell_size : {1.0f, 3.0f, 4.0f, 8.0f, 32.0f}) {
       const BoundsGrid bounds(*grid, cell_size);
       GridLookup<float> lookup(*grid);
       Rng rng(3);
