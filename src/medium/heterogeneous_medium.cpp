@@ -89,6 +89,12 @@ float cell_size(const Grid<Value>& grid, const TrackingSettings& settings) {
   return std::ceil(max_component(grid.box().size()));
 }
 
+/// Distance [unit] below which points of the segment cannot be told apart. A step that is shorter,
+/// in a medium thick beyond measure, would never leave its place.
+float rounding_of_points(const IndexSegment& segment) {
+  return 0x1p-24f * max_component(glm::abs(segment.o)) / max_component(glm::abs(segment.d));
+}
+
 float largest(float v) {
   return v;
 }
@@ -125,7 +131,8 @@ class HeterogeneousMedium final : public Medium {
         bounds_(*density_, cell_size(*density_, settings)),
         control_scale_(settings.control ? density_scale_ : 0.0f),
         lookup_(voxel_lookup(*density_, settings)),
-        roulette_below_(settings.roulette ? 0.1f : 0.0f) {
+        roulette_below_(settings.roulette ? 0.1f : 0.0f),
+        very_thick_(settings.bounds == TrackingSettings::Bounds::kCells ? 1000.0f : kInfinity) {
     assert(std::isfinite(bounds_.total().max * density_scale_));
   }
 
@@ -142,8 +149,8 @@ class HeterogeneousMedium final : public Medium {
     Rng& rng = sampler.rng();
     GridLookup<Stored> lookup(*density_);
     float tau = sample_optical_thickness(sampler.next_1d());
-    walk_cells(bounds_, *segment, [&](const glm::ivec3& cell, float t, float t1) {
-      const ValueRange range = bounds_.range(cell);
+    const float least_step = rounding_of_points(*segment);
+    walk(*segment, [&](const Box3& box, const ValueRange& range, float t, float t1) {
       const float sigma_maj = range.max * density_scale_;
       if (!(sigma_maj > 0.0f)) return true;
       const float sigma_c = control(range, Value{}) * control_scale_;
@@ -153,9 +160,9 @@ class HeterogeneousMedium final : public Medium {
           tau -= tau_to_end;
           return true;
         }
-        t += tau / sigma_maj;
+        t = std::min(t + std::max(tau / sigma_maj, least_step), t1);
         tau = sample_optical_thickness(rng.next_float());
-        const auto sigma_t = [&] { return extinction(lookup, cell, *segment, t, sigma_maj, rng); };
+        const auto sigma_t = [&] { return extinction(lookup, box, *segment, t, sigma_maj, rng); };
         if (is_real(sigma_maj, sigma_c, beta, flight.weight, rng, sigma_t)) {
           flight.scattered = true;
           flight.t = segment->t_start + t;
@@ -178,8 +185,8 @@ class HeterogeneousMedium final : public Medium {
 
     GridLookup<Stored> lookup(*density_);
     float tau = sample_optical_thickness(rng.next_float());
-    walk_cells(bounds_, *segment, [&](const glm::ivec3& cell, float t, float t1) {
-      const ValueRange range = bounds_.range(cell);
+    const float least_step = rounding_of_points(*segment);
+    walk(*segment, [&](const Box3& box, const ValueRange& range, float t, float t1) {
       if (!(range.max > 0.0f)) return true;
       // The control has a closed form; only what is above it is tracked, by ratio tracking.
       const float sigma_maj = range.max * density_scale_;
@@ -192,9 +199,9 @@ class HeterogeneousMedium final : public Medium {
           tau -= tau_to_end;
           return true;
         }
-        t += tau / residual;
+        t = std::min(t + std::max(tau / residual, least_step), t1);
         tau = sample_optical_thickness(rng.next_float());
-        const Value sigma_t = extinction(lookup, cell, *segment, t, sigma_maj, rng);
+        const Value sigma_t = extinction(lookup, box, *segment, t, sigma_maj, rng);
         T *= glm::max((sigma_maj - sigma_t) / residual, Value(0.0f));
       }
       return false;
@@ -218,11 +225,34 @@ class HeterogeneousMedium final : public Medium {
   }
 
  private:
+  /// Calls `visit(box, range, t0, t1)` for each cell along the segment, in order, until it returns
+  /// false. Null collisions in the empty part of a cell that is very thick elsewhere would not come
+  /// to an end: such a cell is visited in parts small enough to be empty or not.
+  template <class Visit>
+  void walk(const IndexSegment& segment, Visit&& visit) const {
+    walk_cells(bounds_, segment, [&](const glm::ivec3& cell, float t, float t1) {
+      const ValueRange& range = bounds_.range(cell);
+      const Box3 box = bounds_.cell_box(cell);
+      const float may_be_null = (range.max - range.min) * density_scale_;
+      if (!(may_be_null * (t1 - t) > very_thick_)) return visit(box, range, t, t1);
+      const FineBounds<Stored> parts(*density_, box);
+      const IndexSegment inside{.o = segment.o + t * segment.d,
+                                .d = segment.d,
+                                .t_start = segment.t_start + t,
+                                .t_end = t1 - t};
+      bool goes_on = true;
+      walk_cells(parts, inside, [&](const glm::ivec3& part, float s, float s1) {
+        goes_on = visit(parts.cell_box(part), parts.range(part), t + s, t + s1);
+        return goes_on;
+      });
+      return goes_on;
+    });
+  }
+
   /// Extinction at t along the segment [1/unit], with the expectation of interpolation. The point
   /// is held inside its cell, whose bounds therefore hold, whatever the rounding of t.
-  Value extinction(GridLookup<Stored>& lookup, const glm::ivec3& cell, const IndexSegment& segment,
+  Value extinction(GridLookup<Stored>& lookup, const Box3& box, const IndexSegment& segment,
                    float t, [[maybe_unused]] float sigma_maj, Rng& rng) const {
-    const Box3 box = bounds_.cell_box(cell);
     const Vec3 p = glm::clamp(segment.o + t * segment.d, box.min, box.max);
     const Value sigma_t = density_scale_ * look_up(lookup, p, rng);
     check_majorant(largest(sigma_t), sigma_maj);
@@ -266,6 +296,7 @@ class HeterogeneousMedium final : public Medium {
   float control_scale_;  // [1/unit] per density; 0 without a control
   VoxelLookup lookup_;
   float roulette_below_;  // transmittance; 0 without roulette
+  float very_thick_;      // optical thickness from which a cell is visited in parts
 };
 
 template <class Stored>

@@ -44,6 +44,16 @@ ValueRange range_over_voxels(typename Grid<Value>::NanoGrid::AccessorType& acces
   return range;
 }
 
+/// Range over the voxels that interpolation inside `box`, faces included, can touch.
+template <class Value>
+ValueRange range_inside(const Grid<Value>& grid,
+                        typename Grid<Value>::NanoGrid::AccessorType& accessor, const Box3& box) {
+  const float reach = grid.interpolation() == Interpolation::kNearest ? 0.5f : 0.0f;
+  const glm::ivec3 lo(glm::floor(box.min + reach));
+  const glm::ivec3 hi(reach > 0.0f ? glm::floor(box.max + reach) : glm::ceil(box.max));
+  return range_over_voxels<Value>(accessor, lo, hi);
+}
+
 }  // namespace
 
 template <class Value>
@@ -60,25 +70,31 @@ BoundsGrid::BoundsGrid(const Grid<Value>& grid, float cell_size)
 
   ranges_.reserve(std::size_t(resolution_.x) * resolution_.y * resolution_.z);
   auto accessor = grid.nano().getAccessor();
-  const float reach = grid.interpolation() == Interpolation::kNearest ? 0.5f : 0.0f;
   total_ = {kInfinity, -kInfinity};
   glm::ivec3 cell;
   for (cell.z = 0; cell.z < resolution_.z; ++cell.z)
     for (cell.y = 0; cell.y < resolution_.y; ++cell.y)
       for (cell.x = 0; cell.x < resolution_.x; ++cell.x) {
-        const Box3 box = cell_box(cell);
-        const glm::ivec3 lo(glm::floor(box.min + reach));
-        const glm::ivec3 hi(reach > 0.0f ? glm::floor(box.max + reach) : glm::ceil(box.max));
-        const ValueRange range = range_over_voxels<Value>(accessor, lo, hi);
+        const ValueRange range = range_inside(grid, accessor, cell_box(cell));
         extend(total_, range);
         ranges_.push_back(range);
       }
+}
+
+template <class Value>
+ValueRange FineBounds<Value>::range(const glm::ivec3& part) const {
+  auto accessor = grid_.nano().getAccessor();
+  return range_inside(grid_, accessor, cell_box(part));
 }
 
 template BoundsGrid::BoundsGrid(const Grid<float>&, float);
 template BoundsGrid::BoundsGrid(const Grid<Rgb>&, float);
 template BoundsGrid::BoundsGrid(const Grid<Packed16>&, float);
 template BoundsGrid::BoundsGrid(const Grid<Packed8>&, float);
+template class FineBounds<float>;
+template class FineBounds<Rgb>;
+template class FineBounds<Packed16>;
+template class FineBounds<Packed8>;
 
 std::optional<IndexSegment> clip_to_grid(const Ray& ray, float t_max, const BoundsGrid& bounds,
                                          const glm::dmat4& index_from_world) {

@@ -53,6 +53,33 @@ class BoundsGrid {
   ValueRange total_;
 };
 
+/// Bounds of one cell of a `BoundsGrid`, half a voxel wide each and found when asked for: inside
+/// such a part interpolation touches eight voxels only, so that where all are empty it is known.
+template <class Value>
+class FineBounds {
+ public:
+  FineBounds(const Grid<Value>& grid, const Box3& cell_box)
+      : grid_(grid),
+        box_(cell_box),
+        resolution_(glm::max(glm::ivec3(glm::ceil(box_.size() / kSize)), glm::ivec3(1))) {}
+
+  ValueRange range(const glm::ivec3& part) const;
+  Box3 cell_box(const glm::ivec3& part) const {
+    const Vec3 lo = box_.min + Vec3(part) * kSize;
+    return {lo, glm::min(lo + kSize, box_.max)};
+  }
+  const Box3& box() const { return box_; }
+  const glm::ivec3& resolution() const { return resolution_; }
+  float cell_size() const { return kSize; }
+
+ private:
+  static constexpr float kSize = 0.5f;  // [voxels]
+
+  const Grid<Value>& grid_;
+  Box3 box_;  // [voxels]
+  glm::ivec3 resolution_;
+};
+
 /// The part of a ray inside the box of a grid, in index space: points are o + t d for t in
 /// [0, t_end), where t = 0 is `t_start` along the original ray and t has the ray's unit.
 struct IndexSegment {
@@ -69,9 +96,9 @@ std::optional<IndexSegment> clip_to_grid(const Ray& ray, float t_max, const Boun
 
 /// Calls `visit(cell, t0, t1)` for each cell along the segment, in order, until it returns false
 /// (Amanatides and Woo 1987). Plane distances come from the integer cell index, not from a running
-/// sum, so nothing drifts; t1 of a cell is t0 of the next.
-template <class Visit>
-void walk_cells(const BoundsGrid& bounds, const IndexSegment& segment, Visit&& visit) {
+/// sum, so nothing drifts; t1 of a cell is t0 of the next. `bounds` is a BoundsGrid or FineBounds.
+template <class Bounds, class Visit>
+void walk_cells(const Bounds& bounds, const IndexSegment& segment, Visit&& visit) {
   const float scale = 1.0f / bounds.cell_size();
   const Vec3 o = (segment.o - bounds.box().min) * scale;
   const Vec3 d = segment.d * scale;

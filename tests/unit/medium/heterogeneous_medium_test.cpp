@@ -33,6 +33,7 @@ const std::vector<FieldCase>& fields() {
       {"lonely voxel",
        {11, 11, 11},
        [](int x, int y, int z) { return x == 5 && y == 5 && z == 5 ? 40.0f : 0.0f; }},
+      {"haze before a wall", {13, 13, 13}, [](int x, int, int) { return x < 8 ? 0.4f : 1e6f; }},
   };
   return cases;
 }
@@ -102,7 +103,26 @@ TEST_P(HeterogeneousLaw, TransmittanceAndFlightsFollowTheOpticalThickness) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Fields, HeterogeneousLaw,
-                         ::testing::Combine(::testing::Range(0, 6), ::testing::Bool()));
+                         ::testing::Combine(::testing::Range(0, 7), ::testing::Bool()));
+
+TEST(HeterogeneousMedium, EmptyPlacesBesideOnesThickBeyondMeasureArePassed) {
+  const auto grid = test::make_grid(
+      {9, 9, 9}, [](int x, int y, int z) { return x == 4 && y == 4 && z == 4 ? 1.0f : 0.0f; });
+  const auto medium =
+      make_heterogeneous_medium(grid, 1e30f, std::make_shared<ConstantField>(Rgb(1.0f)), {});
+  Rng rng(1);
+  for (int i = 0; i < 20; ++i) {
+    const float beside = (4.5f + 1.2f + 0.3f * rng.next_float()) / 9.0f;
+    const float within = (4.5f + 0.3f * rng.next_float()) / 9.0f;
+    for (const auto& [y, T] : {std::pair(beside, 1.0f), std::pair(within, 0.0f)}) {
+      const Ray ray{{-1.0f, y, 0.5f}, {1.0f, 0.0f, 0.0f}};
+      EXPECT_EQ(medium->transmittance(ray, kInfinity, rng).r, T);
+      Sampler sampler(19, 0, i, true);
+      EXPECT_EQ(medium->sample_free_flight(ray, kInfinity, Rgb(1.0f), sampler).scattered,
+                T == 0.0f);
+    }
+  }
+}
 
 TEST(HeterogeneousMedium, EverySettingHasTheSameExpectation) {
   using Bounds = TrackingSettings::Bounds;

@@ -41,6 +41,40 @@ TEST(BoundsGrid, HoldsEveryInterpolatedValueOfEveryCell) {
   }
 }
 
+TEST(FineBounds, HoldEveryInterpolatedValueOfTheirParts) {
+  for (const Interpolation interpolation : {Interpolation::kTrilinear, Interpolation::kNearest}) {
+    const auto grid = test::make_grid({13, 9, 6}, rough, glm::dmat4(1.0), interpolation);
+    const BoundsGrid bounds(*grid, 4);
+    const Box3 cell_box = bounds.cell_box({2, 1, 1});
+    const FineBounds<float> parts(*grid, cell_box);
+    EXPECT_EQ(parts.cell_box(parts.resolution() - 1).max, cell_box.max);
+    GridLookup<float> lookup(*grid);
+    Rng rng(3);
+    glm::ivec3 part;
+    for (part.z = 0; part.z < parts.resolution().z; ++part.z)
+      for (part.y = 0; part.y < parts.resolution().y; ++part.y)
+        for (part.x = 0; part.x < parts.resolution().x; ++part.x)
+          for (int i = 0; i < 20; ++i) {
+            const Box3 box = parts.cell_box(part);
+            const Vec3 p = glm::mix(box.min, box.max,
+                                    Vec3(rng.next_float(), rng.next_float(), rng.next_float()));
+            const float v = interpolation == Interpolation::kNearest ? lookup.nearest(p)
+                                                                     : lookup.stochastic(p, rng);
+            EXPECT_LE(v, parts.range(part).max);
+            EXPECT_GE(v, parts.range(part).min);
+          }
+  }
+}
+
+TEST(FineBounds, AreEmptyWhereAllEightVoxelsAre) {
+  const auto grid = test::make_grid(
+      {8, 8, 8}, [](int x, int y, int z) { return x == 0 && y == 0 && z == 0 ? 1.0f : 0.0f; });
+  const FineBounds<float> parts(*grid, BoundsGrid(*grid, 4).cell_box({0, 0, 0}));
+  ASSERT_EQ(parts.resolution(), glm::ivec3(8));
+  EXPECT_EQ(parts.range({2, 2, 2}).max, 1.0f);
+  EXPECT_EQ(parts.range({3, 2, 2}).max, 0.0f);
+}
+
 struct Walk {
   const char* name;
   Vec3 o, d;
