@@ -5,97 +5,25 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <charconv>
-#include <cmath>
 #include <limits>
 
+#include "app/option_values.h"
 #include "app/study_options.h"
 #include "app/version.h"
-#include "core/error.h"
 #include "io/nearest_name.h"
 
 namespace brume {
 namespace {
 
-/// The number that `text` begins with, and what follows it; nothing when it begins with none.
-std::optional<std::pair<double, std::string>> leading_number(const std::string& text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || !std::isfinite(value)) return std::nullopt;
-  return std::pair{value, std::string(end, text.data() + text.size())};
-}
-
-/// A check for options: a number in [lo, hi]. CLI::Range lets NaN pass.
-auto number_between(double lo, double hi) {
-  return [=](const std::string& text) -> std::string {
-    const auto number = leading_number(text);
-    if (number && number->second.empty() && number->first >= lo && number->first <= hi) return {};
-    return fmt::format("\"{}\" is no number from {:.3g} to {:.3g}", text, lo, hi);
-  };
-}
-
-double parse_duration(const char* option, const std::string& text) {
-  if (const auto number = leading_number(text); number && number->first > 0.0) {
-    const auto& [value, unit] = *number;
-    if (unit.empty() || unit == "s") return value;
-    if (unit == "m" || unit == "min") return 60.0 * value;
-    if (unit == "h") return 3600.0 * value;
-  }
-  throw CLI::ValidationError(option,
-                             fmt::format("\"{}\" is no duration; write 90s, 5m or 1.5h", text));
-}
-
-double parse_error(const std::string& text) {
-  if (const auto number = leading_number(text)) {
-    const auto& [value, unit] = *number;
-    const double error = unit == "%" ? value / 100.0 : value;
-    if ((unit.empty() || unit == "%") && error > 0.0 && error < 1.0) return error;
-  }
-  throw CLI::ValidationError(
-      "--error", fmt::format("\"{}\" is no relative error below 1; write 1% or 0.01", text));
-}
-
-glm::ivec2 parse_size(const std::string& text) {
-  glm::ivec2 size(0);
-  const char* end = text.data() + text.size();
-  const auto width = std::from_chars(text.data(), end, size.x);
-  if (width.ec == std::errc{} && width.ptr != end && (*width.ptr == 'x' || *width.ptr == 'X')) {
-    const auto height = std::from_chars(width.ptr + 1, end, size.y);
-    constexpr int kMax = 65536;
-    if (height.ec == std::errc{} && height.ptr == end && size.x > 0 && size.y > 0 &&
-        size.x <= kMax && size.y <= kMax)
-      return size;
-  }
-  throw CLI::ValidationError("--size",
-                             fmt::format("\"{}\" is no picture size; write width x height "
-                                         "in pixels, such as 1280x720",
-                                         text));
-}
-
-Rgb parse_albedo(const std::string& text) {
-  std::vector<float> values;
-  std::string rest = text;
-  while (const auto number = leading_number(rest)) {
-    values.push_back(static_cast<float>(number->first));
-    rest = number->second;
-    if (rest.empty() || rest[0] != ',') break;
-    rest.erase(0, 1);
-  }
-  const bool in_range =
-      std::all_of(values.begin(), values.end(), [](float v) { return v >= 0.0f && v <= 1.0f; });
-  if (rest.empty() && in_range && values.size() == 1) return Rgb(values[0]);
-  if (rest.empty() && in_range && values.size() == 3) return {values[0], values[1], values[2]};
-  throw CLI::ValidationError(
-      "--albedo", fmt::format("\"{}\" is no albedo; write one number in [0, 1] or three, such as "
-                              "0.9,0.95,1",
-                              text));
-}
-
-std::pair<std::string, std::string> parse_definition(const std::string& text) {
-  const auto equals = text.find('=');
-  if (equals == std::string::npos || equals == 0)
-    throw CLI::ValidationError("-D", fmt::format("\"{}\" defines nothing; write name=value", text));
-  return {text.substr(0, equals), text.substr(equals + 1)};
+/// An option whose text `parse` turns into a value.
+template <class Value, class Result>
+CLI::Option* add_parsed(CLI::App& command, const char* name, const char* type_name, Value& value,
+                        Result (*parse)(const char*, const std::string&), const char* description) {
+  return command
+      .add_option_function<std::string>(
+          name, [&value, name, parse](const std::string& text) { value = parse(name, text); },
+          description)
+      ->type_name(type_name);
 }
 
 void add_input(CLI::App& command, std::string& input, const char* description) {
@@ -121,9 +49,10 @@ void add_definitions(CLI::App& command, std::map<std::string, std::string>& defi
       .add_option_function<std::vector<std::string>>(
           "-D",
           [&definitions](const std::vector<std::string>& texts) {
-            for (const std::string& text : texts)
-              definitions.insert_or_assign(parse_definition(text).first,
-                                           parse_definition(text).second);
+            for (const std::string& text : texts) {
+              const auto [name, value] = parse_definition("-D", text);
+              definitions.insert_or_assign(name, value);
+            }
           },
           "Value of a scene parameter that the scene declares with <default>")
       ->type_name("name=value")
@@ -167,11 +96,8 @@ void add_volume_options(CLI::App& command, RenderOptions& options) {
       ->check(number_between(std::numeric_limits<float>::min(), std::numeric_limits<float>::max()))
       ->type_name("X")
       ->group(volume);
-  command
-      .add_option_function<std::string>(
-          "--albedo", [&](const std::string& text) { options.albedo = parse_albedo(text); },
-          "Single-scattering albedo in [0, 1]")
-      ->type_name("R[,G,B]")
+  add_parsed(command, "--albedo", "R[,G,B]", options.albedo, parse_albedo,
+             "Single-scattering albedo in [0, 1]")
       ->group(volume);
   command
       .add_option("--g", options.g, "Asymmetry of Henyey-Greenstein scattering, forward positive")
@@ -195,18 +121,11 @@ void add_render(CLI::App& app, RenderOptions& options) {
       ->check(CLI::Range(1u, 1u << 30))
       ->type_name("N")
       ->group(stop);
-  render
-      .add_option_function<std::string>(
-          "--time",
-          [&](const std::string& text) { options.seconds = parse_duration("--time", text); },
-          "Time to spend, loading and writing included: 90s, 5m, 1.5h")
-      ->type_name("DURATION")
+  add_parsed(render, "--time", "DURATION", options.seconds, parse_duration,
+             "Time to spend, loading and writing included: 90s, 5m, 1.5h")
       ->group(stop);
-  render
-      .add_option_function<std::string>(
-          "--error", [&](const std::string& text) { options.error = parse_error(text); },
-          "Relative RMS error of the picture, with 95% confidence: 1% or 0.01")
-      ->type_name("E")
+  add_parsed(render, "--error", "E", options.error, parse_error,
+             "Relative RMS error of the picture, with 95% confidence: 1% or 0.01")
       ->group(stop);
   render
       .add_flag_callback(
@@ -215,11 +134,8 @@ void add_render(CLI::App& app, RenderOptions& options) {
       ->group(stop);
 
   const auto picture = "The picture";
-  render
-      .add_option_function<std::string>(
-          "--size", [&](const std::string& text) { options.size = parse_size(text); },
-          "Size in pixels instead of the scene's")
-      ->type_name("WxH")
+  add_parsed(render, "--size", "WxH", options.size, parse_size,
+             "Size in pixels instead of the scene's")
       ->group(picture);
   render
       .add_option("--exposure", options.exposure,
@@ -251,15 +167,9 @@ void add_render(CLI::App& app, RenderOptions& options) {
       ->type_name("N")
       ->group(run);
   render.add_flag("--quiet", options.quiet, "Print nothing but warnings and errors")->group(run);
-  render
-      .add_option_function<std::string>(
-          "--checkpoint-every",
-          [&](const std::string& text) {
-            options.checkpoint_every = parse_duration("--checkpoint-every", text);
-          },
-          "Save all that --resume needs beside the first output (FILE.checkpoint), in such "
-          "intervals and at the end")
-      ->type_name("DURATION")
+  add_parsed(render, "--checkpoint-every", "DURATION", options.checkpoint_every, parse_duration,
+             "Save all that --resume needs beside the first output (FILE.checkpoint), in such "
+             "intervals and at the end")
       ->group(run);
   render
       .add_flag("--resume", options.resume,
@@ -275,12 +185,8 @@ void add_trade(CLI::App& app, TradeOptions& options) {
   CLI::App& trade = *app.add_subcommand(
       "trade", "Measure speed against accuracy on a scene: table, report with plots, what to use");
   add_input(trade, options.render.input, "Scene (.xml) or volume (.vdb, .nvdb, .vol)");
-  trade
-      .add_option_function<std::string>(
-          "--budget",
-          [&](const std::string& text) { options.budget = parse_duration("--budget", text); },
-          "Time to spend on everything: 90s, 5m, 1.5h; default 5m")
-      ->type_name("DURATION");
+  add_parsed(trade, "--budget", "DURATION", options.budget, parse_duration,
+             "Time to spend on everything: 90s, 5m, 1.5h; default 5m");
   trade
       .add_option("-o,--output", options.report_path,
                   "Report to write (.html, one page that needs no other file); .csv and .json of "
@@ -291,12 +197,9 @@ void add_trade(CLI::App& app, TradeOptions& options) {
                   "Picture to measure against, such as one rendered overnight; its size is taken. "
                   "Default: a third of the time is spent on one")
       ->type_name("FILE");
-  trade
-      .add_option_function<std::string>(
-          "--size", [&](const std::string& text) { options.render.size = parse_size(text); },
-          "Size of the pictures rendered; default: small enough for the time. Times are given for "
-          "the scene's own")
-      ->type_name("WxH");
+  add_parsed(trade, "--size", "WxH", options.render.size, parse_size,
+             "Size of the pictures rendered; default: small enough for the time. Times are given "
+             "for the scene's own");
   add_definitions(trade, options.render.definitions);
   add_volume_options(trade, options.render);
   trade.add_option("--threads", options.render.threads, "Default: all processors")

@@ -40,6 +40,9 @@ struct RenderOptions {
   std::optional<float> g{};
 
   bool any_volume_option() const { return !grid.empty() || density_scale || albedo || g; }
+  /// A render that only counts samples gives each pixel as many as it was told.
+  bool is_adaptive() const { return adaptive && (seconds || error); }
+  bool keeps_checkpoint() const { return checkpoint_every || resume; }
 };
 
 /// `brume compare`.

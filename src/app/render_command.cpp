@@ -6,13 +6,13 @@
 #include <ctime>
 #include <filesystem>
 
+#include "app/attempts.h"
 #include "app/camera_samples.h"
 #include "app/commands.h"
 #include "app/input.h"
-#include "app/render_fingerprint.h"
+#include "app/render_checkpoint.h"
 #include "app/statistics_file.h"
 #include "app/version.h"
-#include "core/error.h"
 #include "film/atomic_file.h"
 #include "film/develop.h"
 #include "film/write_image.h"
@@ -33,15 +33,6 @@ std::vector<std::string> output_paths(const RenderOptions& options) {
   return {std::filesystem::path(options.input).stem().string() + ".exr"};
 }
 
-/// A render that only counts samples gives each pixel as many as it was told.
-bool is_adaptive(const RenderOptions& options) {
-  return options.adaptive && (options.seconds || options.error);
-}
-
-bool keeps_checkpoint(const RenderOptions& options) {
-  return options.checkpoint_every || options.resume;
-}
-
 RenderSettings render_settings(const RenderOptions& options, const LoadedScene& loaded,
                                double seconds_used, std::size_t output_count) {
   RenderSettings settings;
@@ -50,12 +41,12 @@ RenderSettings render_settings(const RenderOptions& options, const LoadedScene& 
   else if (!options.seconds && !options.error)
     settings.spp = std::uint32_t(loaded.sample_count);
   settings.error = options.error.value_or(0.0);
-  settings.adaptive = is_adaptive(options);
+  settings.adaptive = options.is_adaptive();
   if (options.seconds) {
     // Writing is part of the time: about half a second a megapixel and file, and more on a machine
     // with other work, as loading has shown. It is a guess, and may not take more than a tenth.
     const double megapixels = 1e-6 * loaded.film.crop_size.x * loaded.film.crop_size.y;
-    const double files = double(output_count) + (keeps_checkpoint(options) ? 1.0 : 0.0);
+    const double files = double(output_count) + (options.keeps_checkpoint() ? 1.0 : 0.0);
     const double undisturbed = 0.05 + 0.5 * megapixels * files;
     const double processor_seconds = double(std::clock()) / CLOCKS_PER_SEC;
     const double slowdown = std::max(seconds_used / processor_seconds, 1.0);
@@ -117,69 +108,11 @@ void warn_of_bad_samples(const RenderStatistics& s) {
 
 /// The layers that were asked for, and what adaptive sampling needs: now, or in a later run.
 FilmLayers film_layers(const RenderOptions& options, const LoadedScene& loaded) {
-  FilmLayers layers{.guide = is_adaptive(options) || keeps_checkpoint(options)};
+  FilmLayers layers{.guide = options.is_adaptive() || options.keeps_checkpoint()};
   for (const auto& names : {options.layers, loaded.aovs})
     for (const std::string& name : names) (name == "albedo" ? layers.albedo : layers.depth) = true;
   return layers;
 }
-
-/// The file that a render is saved to and continued from, if it was asked for.
-class Checkpoint {
- public:
-  Checkpoint(const RenderOptions& options, const LoadedScene& loaded, const std::string& path,
-             Film& film)
-      : path_(path), film_(film) {
-    if (!keeps_checkpoint(options)) return;
-    fingerprint_ = render_fingerprint(options, loaded, film.layers());
-    if (!options.resume) return;
-    if (std::filesystem::exists(path_))
-      state_ = read_checkpoint(path_, *fingerprint_, film);
-    else
-      print_notices({fmt::format("there is no {} to resume: rendering from the start", path_)});
-  }
-
-  /// How far an earlier run came.
-  const RenderState& state() const { return state_; }
-  void save(const RenderState& state) const {
-    if (fingerprint_) write_checkpoint(path_, *fingerprint_, state, film_);
-  }
-  /// The same in the middle of a render, which what is wrong with a disk does not end.
-  void save_or_warn(const RenderState& state) const {
-    try {
-      save(state);
-    } catch (const Error& error) {
-      fmt::print(stderr, "warning: {}; an older checkpoint is kept, and rendering goes on\n",
-                 error.what());
-    }
-  }
-
- private:
-  std::string path_;
-  Film& film_;
-  std::optional<Fingerprint> fingerprint_{};
-  RenderState state_{};
-};
-
-/// Does one thing after the other, whatever becomes of those before.
-class Attempts {
- public:
-  template <class Action>
-  void attempt(const Action& action) {
-    try {
-      action();
-    } catch (const Error& error) {
-      failures_.emplace_back(error.what());
-    }
-  }
-  /// Throws an Error that tells all that failed.
-  void check() const {
-    if (!failures_.empty())
-      throw Error(fmt::format("{}", fmt::join(failures_, "\nbrume: ")), ErrorKind::kEnvironment);
-  }
-
- private:
-  std::vector<std::string> failures_;
-};
 
 }  // namespace
 
@@ -189,7 +122,7 @@ int run_render(const RenderOptions& options) {
   for (const std::string& output : outputs) check_output_path(output);
   if (!options.statistics_path.empty()) check_writable(options.statistics_path);
   const std::string checkpoint_path = outputs.front() + ".checkpoint";
-  if (keeps_checkpoint(options)) check_writable(checkpoint_path);
+  if (options.keeps_checkpoint()) check_writable(checkpoint_path);
 
   Notices notices;
   LoadedScene loaded = load_input(options, notices);
@@ -198,7 +131,7 @@ int run_render(const RenderOptions& options) {
 
   Film film(std::uint32_t(loaded.film.crop_size.x), std::uint32_t(loaded.film.crop_size.y),
             film_layers(options, loaded));
-  const Checkpoint checkpoint(options, loaded, checkpoint_path, film);
+  const RenderCheckpoint checkpoint(options, loaded, checkpoint_path, film);
   const PathIntegrator integrator(*loaded.scene, *loaded.camera, loaded.path);
 
   const InterruptGuard guard;

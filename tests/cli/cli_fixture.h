@@ -4,9 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "cli/picture_file.h"
 #include "cli/program.h"
 #include "support/temporary_folder.h"
 
@@ -23,6 +26,13 @@ class CliTest : public ::testing::Test {
   void write(const std::string& name, const std::string& bytes) const {
     folder_.write(name, bytes);
   }
+
+  std::string bytes(const std::string& name) const {
+    std::ifstream file(path(name), std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  nlohmann::json json(const std::string& name) const { return nlohmann::json::parse(bytes(name)); }
+  PictureFile read(const std::string& name) const { return read_picture(path(name)); }
 
   Ended run(std::vector<std::string> arguments) const {
     return run_brume({.arguments = std::move(arguments), .folder = folder_.path()});

@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fstream>
-#include <nlohmann/json.hpp>
-
 #include "cli/cli_fixture.h"
 
 namespace brume::test {
@@ -15,10 +12,6 @@ class Compare : public CliTest {
     std::vector<std::string> arguments = {"render", "scene.xml", "--quiet", "-o", name};
     arguments.insert(arguments.end(), more.begin(), more.end());
     ASSERT_EQ(run(arguments).exit_code, 0);
-  }
-  nlohmann::json json(const std::string& name) const {
-    std::ifstream file(path(name));
-    return nlohmann::json::parse(file);
   }
 };
 

@@ -1,10 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <OpenImageIO/imageio.h>
-
 #include <csignal>
-#include <cstring>
-#include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "cli/cli_fixture.h"
 #include "support/constant_vdb.h"
@@ -17,42 +12,13 @@ using ::testing::HasSubstr;
 using ::testing::MatchesRegex;
 using ::testing::Not;
 
-/// Every channel of a picture file as it is stored.
-struct Picture {
-  int width = 0, height = 0;
-  std::vector<std::string> channels;
-  std::vector<float> pixels;
-  OIIO::ImageSpec spec;
-};
-
 class RenderCommand : public CliTest {
  protected:
-  Picture read(const std::string& name) const {
-    const auto input = OIIO::ImageInput::open(path(name).string());
-    if (!input) {
-      ADD_FAILURE() << OIIO::geterror();
-      return {};
-    }
-    const OIIO::ImageSpec& spec = input->spec();
-    Picture picture{spec.width, spec.height, spec.channelnames, {}, spec};
-    picture.pixels.resize(std::size_t(spec.width) * spec.height * spec.nchannels);
-    EXPECT_TRUE(
-        input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, picture.pixels.data()));
-    return picture;
-  }
-  nlohmann::json read_json(const std::string& name) const {
-    std::ifstream file(path(name));
-    return nlohmann::json::parse(file);
-  }
   /// A scene that takes far longer than any test.
   void write_long_scene() const {
     std::string text = kScene;
     text.replace(text.find("value=\"4\""), 9, "value=\"1000000000\"");
     write("long.xml", text);
-  }
-  static bool same_bits(const Picture& a, const Picture& b) {
-    return a.channels == b.channels && a.pixels.size() == b.pixels.size() && !a.pixels.empty() &&
-           std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(float)) == 0;
   }
 };
 
@@ -64,7 +30,7 @@ TEST_F(RenderCommand, WritesAnExrNamedAfterTheInputInTheCurrentFolder) {
   EXPECT_THAT(ended.out, MatchesRegex("scene.exr \\(16x12\\): 4 samples a pixel in .* s, sample "
                                       "count reached; relative RMS error .*%, below .*% with 95% "
                                       "confidence\n"));
-  const Picture picture = read("scene.exr");
+  const PictureFile picture = read("scene.exr");
   EXPECT_EQ(picture.width, 16);
   EXPECT_EQ(picture.height, 12);
   EXPECT_THAT(picture.channels, ::testing::IsSupersetOf({"R", "G", "B", "A"}));
@@ -80,7 +46,7 @@ TEST_F(RenderCommand, WritesEveryOutputAskedFor) {
                            "-o", "d.hdr", "-o", "e.PNG"});
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
   for (const char* name : {"a.exr", "b.png", "c.jpg", "d.hdr", "e.PNG"}) {
-    const Picture picture = read(name);
+    const PictureFile picture = read(name);
     EXPECT_EQ(picture.width, 16) << name;
     EXPECT_EQ(picture.height, 12) << name;
   }
@@ -99,7 +65,7 @@ TEST_F(RenderCommand, OptionsReplaceWhatTheSceneSays) {
            "-D", "glow=3", "--aov", "albedo,depth", "--json", "s.json", "--quiet"})
           .exit_code,
       0);
-  const Picture picture = read("scene.exr");
+  const PictureFile picture = read("scene.exr");
   EXPECT_EQ(picture.width, 10);
   EXPECT_EQ(picture.height, 6);
   EXPECT_THAT(picture.channels,
@@ -107,8 +73,8 @@ TEST_F(RenderCommand, OptionsReplaceWhatTheSceneSays) {
   EXPECT_EQ(picture.spec.get_int_attribute("brume:max_depth"), 1);
   EXPECT_EQ(picture.spec.get_string_attribute("brume:define:glow"), "3");
   EXPECT_FLOAT_EQ(picture.pixels[0], 3.0f);  // the sky beside the ball
-  EXPECT_EQ(read_json("s.json")["mean_spp"], 2.0);
-  EXPECT_EQ(read_json("s.json")["seed"], 7);
+  EXPECT_EQ(json("s.json")["mean_spp"], 2.0);
+  EXPECT_EQ(json("s.json")["seed"], 7);
 }
 
 TEST_F(RenderCommand, ExposureBrightensTheTonedPictureOnly) {
@@ -124,7 +90,7 @@ TEST_F(RenderCommand, ExposureBrightensTheTonedPictureOnly) {
 
 TEST_F(RenderCommand, StatisticsAreCompleteJson) {
   EXPECT_EQ(run({"render", "scene.xml", "--spp", "80", "--json", "s.json"}).exit_code, 0);
-  const nlohmann::json s = read_json("s.json");
+  const nlohmann::json s = json("s.json");
   EXPECT_TRUE(s["version"].is_string());
   EXPECT_EQ(s["input"], "scene.xml");
   EXPECT_EQ(s["outputs"], nlohmann::json::array({"scene.exr"}));
@@ -148,15 +114,15 @@ TEST_F(RenderCommand, SettingsAreRecordedWhereTheyDifferFromTheDefaults) {
                            "--set", "bounds=cells", "--json", "s.json"});
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
   EXPECT_EQ(read("scene.exr").spec.get_string_attribute("brume:settings"), "sampler=independent");
-  EXPECT_EQ(read_json("s.json")["settings"], nlohmann::json({{"sampler", "independent"}}));
-  EXPECT_EQ(read_json("s.json")["biased_settings"], nlohmann::json::array());
+  EXPECT_EQ(json("s.json")["settings"], nlohmann::json({{"sampler", "independent"}}));
+  EXPECT_EQ(json("s.json")["biased_settings"], nlohmann::json::array());
   EXPECT_EQ(run({"render", "scene.xml", "--spp", "16", "-o", "sobol.exr"}).exit_code, 0);
   EXPECT_FALSE(same_bits(read("scene.exr"), read("sobol.exr")));
 }
 
 TEST_F(RenderCommand, AnUnknownErrorIsNullInJson) {
   EXPECT_EQ(run({"render", "scene.xml", "--spp", "1", "--json", "s.json"}).exit_code, 0);
-  EXPECT_TRUE(read_json("s.json")["relative_rms_error"].is_null());
+  EXPECT_TRUE(json("s.json")["relative_rms_error"].is_null());
 }
 
 TEST_F(RenderCommand, QuietWritesThePictureAndNothingElse) {
@@ -189,8 +155,8 @@ TEST_F(RenderCommand, StopsWhenTheTimeIsSpent) {
   EXPECT_GT(ended.seconds, 1.5);
   EXPECT_LT(ended.seconds, 10.0);
   EXPECT_THAT(ended.out, HasSubstr("time spent"));
-  EXPECT_EQ(read_json("s.json")["stopped"], "time spent");
-  EXPECT_GT(read_json("s.json")["min_spp"], 0);
+  EXPECT_EQ(json("s.json")["stopped"], "time spent");
+  EXPECT_GT(json("s.json")["min_spp"], 0);
   EXPECT_TRUE(exists("long.exr"));
 }
 
@@ -201,7 +167,7 @@ TEST_F(RenderCommand, StopsWhenTheErrorIsReached) {
     EXPECT_EQ(ended.exit_code, 0);
     EXPECT_THAT(ended.out, HasSubstr("error target reached; relative RMS error"));
     EXPECT_THAT(ended.err, HasSubstr("% to 2%"));
-    const nlohmann::json s = read_json("s.json");
+    const nlohmann::json s = json("s.json");
     EXPECT_EQ(s["stopped"], "error target reached");
     EXPECT_LT(s["relative_rms_error_bound_95"], 0.02);
     EXPECT_GT(s["relative_rms_error_bound_95"], 0.015);
@@ -211,7 +177,7 @@ TEST_F(RenderCommand, StopsWhenTheErrorIsReached) {
   EXPECT_EQ(
       run({"render", "long.xml", "--error", "2%", "--no-adaptive", "--json", "s.json"}).exit_code,
       0);
-  EXPECT_EQ(read_json("s.json")["min_spp"], read_json("s.json")["mean_spp"]);
+  EXPECT_EQ(json("s.json")["min_spp"], json("s.json")["mean_spp"]);
 }
 
 TEST_F(RenderCommand, TheStopRuleThatIsReachedFirstCounts) {
@@ -237,8 +203,8 @@ TEST_F(RenderCommand, CtrlCSavesWhatWasRendered) {
          }});
     EXPECT_EQ(ended.exit_code, 130);
     EXPECT_THAT(ended.out, HasSubstr("interrupted"));
-    EXPECT_EQ(read_json("s.json")["stopped"], "interrupted");
-    const Picture picture = read("cut.exr");
+    EXPECT_EQ(json("s.json")["stopped"], "interrupted");
+    const PictureFile picture = read("cut.exr");
     EXPECT_EQ(picture.width, 16);
     EXPECT_GT(picture.pixels[0], 0.0f);
     EXPECT_EQ(picture.spec.get_string_attribute("brume:stopped"), "interrupted");
@@ -255,10 +221,7 @@ TEST_F(RenderCommand, AnOlderPictureStaysUntilTheNewOneIsWhole) {
                                  .folder = path(""),
                                  .when_listening = [](pid_t pid) { ::kill(pid, SIGKILL); }});
   EXPECT_EQ(ended.exit_code, 128 + SIGKILL);
-  std::ifstream file(path("scene.exr"));
-  std::string line;
-  std::getline(file, line);
-  EXPECT_EQ(line, "an older picture");
+  EXPECT_EQ(bytes("scene.exr"), "an older picture");
   EXPECT_EQ(run({"render", "scene.xml", "--quiet"}).exit_code, 0);
   EXPECT_EQ(read("scene.exr").width, 16);
 }
@@ -271,7 +234,7 @@ TEST_F(RenderCommand, TheBitsDoNotDependOnTheNumberOfThreads) {
     words.insert(words.end(), {"--threads", threads, "-o", std::string(threads) + ".exr"});
     EXPECT_EQ(run(words).exit_code, 0);
   }
-  const Picture one = read("1.exr");
+  const PictureFile one = read("1.exr");
   EXPECT_TRUE(same_bits(one, read("2.exr")));
   EXPECT_TRUE(same_bits(one, read("7.exr")));
 
@@ -322,9 +285,8 @@ TEST_F(RenderCommand, FindsTheDensityOfAVdbAndListsGridsWhenAskedForAnother) {
 
 TEST_F(RenderCommand, ATruncatedVolumeIsRefused) {
   write_constant_vdb(path("whole.vdb"), 9, 0.5);
-  std::ifstream whole(path("whole.vdb"), std::ios::binary);
-  std::string bytes((std::istreambuf_iterator<char>(whole)), {});
-  write("cut.vdb", bytes.substr(0, bytes.size() / 2));
+  const std::string whole = bytes("whole.vdb");
+  write("cut.vdb", whole.substr(0, whole.size() / 2));
   const Ended ended = run({"render", "cut.vdb"});
   EXPECT_EQ(ended.exit_code, 2);
   EXPECT_THAT(ended.err, ::testing::StartsWith("brume: cut.vdb: "));

@@ -96,6 +96,8 @@ TEST_F(Usage, ValuesThatMakeNoSenseAreRefused) {
                  "brume: --albedo: \"1.5\" is no albedo; write one number in [0, 1] or three, such "
                  "as 0.9,0.95,1" +
                      try_help);
+  for (const char* cut : {"0.5,", "0.5,0.5", "0.5,,0.5", ""})
+    EXPECT_EQ(run({"render", "scene.xml", "--albedo", cut}).exit_code, 2) << cut;
   for (const std::vector<std::string>& words : {std::vector<std::string>{"--threads", "0"},
                                                 {"--g", "1.5"},
                                                 {"--g", "nan"},

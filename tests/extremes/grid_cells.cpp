@@ -95,33 +95,13 @@ std::vector<Cell> cells_of_grids() {
                 writes_vol({1 << 20, 1, 1},
                            [](int x, int, int) { return x % 4096 == 100 ? 4096.0 : 0.0; }),
                 lo, hi, 2, 1, filter});
-    add(cells, {"length of a voxel over its width",
-                "Sliver1000" + suffix,
-                1e3,
-                writes_vol({8, 8, 8}, ramp),
-                lo,
-                {1000, 1, 1},
-                1e-3,
-                3.5,
-                filter});
-    add(cells, {"length of a voxel over its width",
-                "Sliver1000000" + suffix,
-                1e6,
-                writes_vol({8, 8, 8}, ramp),
-                lo,
-                {1e6, 1, 1},
-                1e-6,
-                3.5,
-                filter});
-    add(cells, {"length of a voxel over its width",
-                "Flat1000" + suffix,
-                1e-3,
-                writes_vol({8, 8, 8}, ramp),
-                lo,
-                {1, 1000, 1000},
-                1,
-                3.5,
-                filter});
+    const auto add_stretched = [&](const char* name, const glm::dvec3& size) {
+      add(cells, {"length of a voxel over its width", name + suffix, size.x / size.y,
+                  writes_vol({8, 8, 8}, ramp), lo, size, 1.0 / size.x, 3.5, filter});
+    };
+    add_stretched("Sliver1000", {1e3, 1, 1});
+    add_stretched("Sliver1000000", {1e6, 1, 1});
+    add_stretched("Flat1000", {1, 1000, 1000});
     add(cells, {"contrast of neighbours", "Contrast1e30" + suffix, 1e30,
                 writes_vol({16, 2, 2}, alternating(1e-30, 2)), lo, hi, 1, 1, filter});
     add(cells, {"contrast of neighbours", "Contrast1e4" + suffix, 1e4,

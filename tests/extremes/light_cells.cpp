@@ -79,27 +79,17 @@ std::vector<Cell> cells_of_lights() {
                                                              : std::nullopt,
                      .rounding = 1e-4,
                      .replications = 1024});
-    if (exponent <= 0)
-      cells.push_back(
-          {.axis = "radius of a ball light over its distance",
-           .at = 0.9 * r,
-           .name = "BallLight" + at,
-           .scene = scene(floor_view() + kFloor +
-                          sphere({0, 1, 0}, 0.9 * r, area_emitter(1.0 / (0.81 * r * r)))),
-           .central_ray = true,
-           .want = glm::dvec3(1.0),
-           .rounding = 1e-4,
-           .replications = 1024});
-    else
-      cells.push_back(
-          {.axis = "radius of a ball light over its distance",
-           .at = r,
-           .name = "BallLight" + at,
-           .scene = scene(floor_view() + kFloor + sphere({0, 1.5 * r, 0}, r, area_emitter(2.25))),
-           .central_ray = true,
-           .want = glm::dvec3(1.0),
-           .rounding = 1e-4,
-           .replications = 1024});
+    const double radius = exponent <= 0 ? 0.9 * r : r, height = exponent <= 0 ? 1.0 : 1.5 * r;
+    cells.push_back({.axis = "radius of a ball light over its distance",
+                     .at = radius,
+                     .name = "BallLight" + at,
+                     .scene = scene(floor_view() + kFloor +
+                                    sphere({0, height, 0}, radius,
+                                           area_emitter(height * height / (radius * radius)))),
+                     .central_ray = true,
+                     .want = glm::dvec3(1.0),
+                     .rounding = 1e-4,
+                     .replications = 1024});
     cells.push_back(
         {.axis = "distance of a point light",
          .at = r,

@@ -44,6 +44,15 @@ namespace {
 /// Light from a slab of optical thickness 2 in a uniform environment (adding-doubling).
 constexpr double kIsotropicSlab = 0.361649 + 0.356501;
 
+std::string view_of(const glm::dvec3& center) {
+  return camera({.origin = center + glm::dvec3(0, 0, -3), .target = center});
+}
+
+/// A cube of optical thickness 2 in a uniform environment.
+std::string absorbing_cube(const glm::dvec3& center) {
+  return cube(center - 1.0, center + 1.0, kNull + homogeneous(1, 0, 0, "interior")) + environment();
+}
+
 }  // namespace
 
 std::vector<Cell> cells_of_size() {
@@ -70,19 +79,16 @@ std::vector<Cell> cells_of_size() {
          .at = offset,
          .name = fmt::format("OffsetFurnace{:.0f}", offset),
          .scene =
-             scene(camera({.origin = center + glm::dvec3(0, 0, -3), .target = center}) +
+             scene(view_of(center) +
                    sphere(center, 1.0, kNull + homogeneous(2, 1, 0.5, "interior")) + environment()),
          .want = glm::dvec3(1.0)});
-    cells.push_back(
-        {.axis = "offset from the origin, Beer-Lambert",
-         .at = offset,
-         .name = fmt::format("OffsetBeer{:.0f}", offset),
-         .scene = scene(camera({.origin = center + glm::dvec3(0, 0, -3), .target = center}) +
-                        cube(center - 1.0, center + 1.0, kNull + homogeneous(1, 0, 0, "interior")) +
-                        environment()),
-         .central_ray = true,
-         .want = glm::dvec3(std::exp(-2.0)),
-         .replications = 1});
+    cells.push_back({.axis = "offset from the origin, Beer-Lambert",
+                     .at = offset,
+                     .name = fmt::format("OffsetBeer{:.0f}", offset),
+                     .scene = scene(view_of(center) + absorbing_cube(center)),
+                     .central_ray = true,
+                     .want = glm::dvec3(std::exp(-2.0)),
+                     .replications = 1});
     const glm::dvec3 lo = center - glm::dvec3(50, 50, 0), hi = center + glm::dvec3(50, 50, 1);
     cells.push_back(
         {.axis = "offset from the origin, slab of albedo 0.9",
@@ -103,9 +109,7 @@ std::vector<Cell> cells_of_size() {
         {.axis = "offset in a wide scene, Beer-Lambert",
          .at = offset,
          .name = fmt::format("FarInWideScene{:.0f}", offset),
-         .scene = scene(camera({.origin = center + glm::dvec3(0, 0, -3), .target = center}) +
-                        cube(center - 1.0, center + 1.0, kNull + homogeneous(1, 0, 0, "interior")) +
-                        sphere({0, -1e5, 0}, 1e5, "") + environment()),
+         .scene = scene(view_of(center) + absorbing_cube(center) + sphere({0, -1e5, 0}, 1e5, "")),
          .central_ray = true,
          .want = glm::dvec3(std::exp(-2.0)),
          .rounding = 1e-5 + 3.5 * 0x1p-24 * offset,

@@ -13,30 +13,40 @@ float rough(int x, int y, int z) {
   return float((x * 7919 + y * 104729 + z * 1299709) % 1009) / 1009.0f;
 }
 
+/// Calls `visit(cell, p)` with `n` points of each cell of `bounds`, sides among them.
+template <class Bounds, class Visit>
+void for_points_of_cells(const Bounds& bounds, int n, const Visit& visit) {
+  Rng rng(3);
+  glm::ivec3 cell;
+  for (cell.z = 0; cell.z < bounds.resolution().z; ++cell.z)
+    for (cell.y = 0; cell.y < bounds.resolution().y; ++cell.y)
+      for (cell.x = 0; cell.x < bounds.resolution().x; ++cell.x)
+        for (int i = 0; i < n; ++i) {
+          const Box3 box = bounds.cell_box(cell);
+          Vec3 p = glm::mix(box.min, box.max,
+                            Vec3(rng.next_float(), rng.next_float(), rng.next_float()));
+          const int axis = i / 5 % 3;
+          if (i % 5 == 0) p[axis] = i % 2 ? box.min[axis] : box.max[axis];
+          visit(cell, p);
+        }
+}
+
 TEST(BoundsGrid, HoldsEveryInterpolatedValueOfEveryCell) {
   for (const Interpolation interpolation : {Interpolation::kTrilinear, Interpolation::kNearest}) {
     const auto grid = test::make_grid({13, 9, 6}, rough, glm::dmat4(1.0), interpolation);
     for (const float cell_size : {1.0f, 3.0f, 4.0f, 8.0f, 32.0f}) {
       const BoundsGrid bounds(*grid, cell_size);
       GridLookup<float> lookup(*grid);
-      Rng rng(3);
-      glm::ivec3 cell;
-      for (cell.z = 0; cell.z < bounds.resolution().z; ++cell.z)
-        for (cell.y = 0; cell.y < bounds.resolution().y; ++cell.y)
-          for (cell.x = 0; cell.x < bounds.resolution().x; ++cell.x)
-            for (int i = 0; i < 50; ++i) {
-              const Box3 box = bounds.cell_box(cell);
-              Vec3 p = glm::mix(box.min, box.max,
-                                Vec3(rng.next_float(), rng.next_float(), rng.next_float()));
-              if (i % 5 == 0) p[i / 5 % 3] = i % 2 ? box.min[i / 5 % 3] : box.max[i / 5 % 3];
-              const bool nearest = interpolation == Interpolation::kNearest;
-              const float v = nearest ? lookup.nearest(p) : lookup.stochastic(p, rng);
-              EXPECT_LE(v, bounds.range(cell).max);
-              EXPECT_GE(v, bounds.range(cell).min);
-              if (!nearest) {
-                EXPECT_LE(lookup.trilinear(p), bounds.range(cell).max * 1.000001f);
-              }
-            }
+      Rng rng(4);
+      for_points_of_cells(bounds, 50, [&](const glm::ivec3& cell, const Vec3& p) {
+        const bool nearest = interpolation == Interpolation::kNearest;
+        const float v = nearest ? lookup.nearest(p) : lookup.stochastic(p, rng);
+        EXPECT_LE(v, bounds.range(cell).max);
+        EXPECT_GE(v, bounds.range(cell).min);
+        if (!nearest) {
+          EXPECT_LE(lookup.trilinear(p), bounds.range(cell).max * 1.000001f);
+        }
+      });
     }
   }
 }
@@ -49,20 +59,13 @@ TEST(FineBounds, HoldEveryInterpolatedValueOfTheirParts) {
     const FineBounds<float> parts(*grid, cell_box);
     EXPECT_EQ(parts.cell_box(parts.resolution() - 1).max, cell_box.max);
     GridLookup<float> lookup(*grid);
-    Rng rng(3);
-    glm::ivec3 part;
-    for (part.z = 0; part.z < parts.resolution().z; ++part.z)
-      for (part.y = 0; part.y < parts.resolution().y; ++part.y)
-        for (part.x = 0; part.x < parts.resolution().x; ++part.x)
-          for (int i = 0; i < 20; ++i) {
-            const Box3 box = parts.cell_box(part);
-            const Vec3 p = glm::mix(box.min, box.max,
-                                    Vec3(rng.next_float(), rng.next_float(), rng.next_float()));
-            const float v = interpolation == Interpolation::kNearest ? lookup.nearest(p)
-                                                                     : lookup.stochastic(p, rng);
-            EXPECT_LE(v, parts.range(part).max);
-            EXPECT_GE(v, parts.range(part).min);
-          }
+    Rng rng(4);
+    for_points_of_cells(parts, 20, [&](const glm::ivec3& part, const Vec3& p) {
+      const float v =
+          interpolation == Interpolation::kNearest ? lookup.nearest(p) : lookup.stochastic(p, rng);
+      EXPECT_LE(v, parts.range(part).max);
+      EXPECT_GE(v, parts.range(part).min);
+    });
   }
 }
 
