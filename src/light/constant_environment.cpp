@@ -2,7 +2,6 @@
 #include "light/constant_environment.h"
 
 #include "core/warp.h"
-#include "light/importance.h"
 
 namespace brume {
 
@@ -18,7 +17,7 @@ EnvironmentLight::View ConstantEnvironment::view(const Vec3& /*d*/) const {
 }
 
 float ConstantEnvironment::importance(const Vec3& /*p*/) const {
-  return finite(4.0f * kPi * luminance(radiance_));
+  return 0.0f;
 }
 
 }  // namespace brume

@@ -13,6 +13,11 @@ class EnvironmentLight : public Light {
     Rgb L;      // [W/(m^2 sr)]
     float pdf;  // density of `sample` [1/sr]; positive wherever L is not black
   };
+  /// How much there is to gain from looking for this light rather than waiting for paths to leave
+  /// the scene: the fluence of the radiance above its mean, which is 0 where all directions are
+  /// alike (MIS compensation, Karlík et al. 2019).
+  float importance(const Vec3& p) const override = 0;
+
   /// Along the unit direction `d`, away from the viewer.
   virtual View view(const Vec3& d) const = 0;
 

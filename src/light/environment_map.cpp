@@ -71,21 +71,33 @@ EnvironmentMap::EnvironmentMap(std::vector<Rgb> pixels, std::size_t width, std::
       to_world_(glm::dmat3(to_world) / glm::length(glm::dvec3(to_world[0]))),
       distribution_(cell_distribution()),
       flux_(distribution_.total()),
-      inverse_flux_(flux_ > 0.0 ? float(1.0 / flux_) : 0.0f) {
+      inverse_flux_(flux_ > 0.0 ? float(1.0 / flux_) : 0.0f),
+      uneven_flux_(uneven_flux()) {
   assert(width >= 1 && height >= 2 && pixels_.size() == width * height);
+}
+
+double EnvironmentMap::solid_angle(std::size_t row) const {
+  return 4.0 * M_PI / double(width_) * (half_versine_[row + 1] - half_versine_[row]);
 }
 
 Distribution2d EnvironmentMap::cell_distribution() const {
   std::vector<float> flux;
   flux.reserve(width_ * (height_ - 1));
-  for (std::size_t row = 0; row + 1 < height_; ++row) {
-    const double solid_angle =
-        4.0 * M_PI / double(width_) * (half_versine_[row + 1] - half_versine_[row]);
+  for (std::size_t row = 0; row + 1 < height_; ++row)
     for (std::size_t column = 0; column < width_; ++column)
       flux.push_back(
-          static_cast<float>(solid_angle * double(corners({column, row}).mean_density())));
-  }
+          static_cast<float>(solid_angle(row) * double(corners({column, row}).mean_density())));
   return Distribution2d(flux, width_, height_ - 1);
+}
+
+double EnvironmentMap::uneven_flux() const {
+  // Rounding makes no picture uneven.
+  const double mean = flux_ / (4.0 * M_PI) * (1.0 + 1e-5);
+  double sum = 0.0;
+  for (std::size_t row = 0; row + 1 < height_; ++row)
+    for (std::size_t column = 0; column < width_; ++column)
+      sum += solid_angle(row) * std::max(0.0, double(corners({column, row}).mean_density()) - mean);
+  return sum;
 }
 
 EnvironmentMap::Corners EnvironmentMap::corners(const Cell& cell) const {
@@ -162,7 +174,7 @@ EnvironmentLight::View EnvironmentMap::view(const Vec3& d) const {
 }
 
 float EnvironmentMap::importance(const Vec3& /*p*/) const {
-  return finite(float(flux_));
+  return finite(float(uneven_flux_));
 }
 
 }  // namespace brume

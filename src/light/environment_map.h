@@ -46,7 +46,9 @@ class EnvironmentMap final : public EnvironmentLight {
 
   std::pair<Cell, Offset> locate(const Vec3& d) const;
   Corners corners(const Cell& cell) const;
+  double solid_angle(std::size_t row) const;  // of a cell [sr]
   Distribution2d cell_distribution() const;
+  double uneven_flux() const;
 
   std::size_t width_, height_;
   std::vector<Rgb> pixels_;           // [height][width] radiance [W/(m^2 sr)]
@@ -56,6 +58,7 @@ class EnvironmentMap final : public EnvironmentLight {
   Distribution2d distribution_;  // of cells, by the flux through them
   double flux_;                  // luminance integrated over the sphere
   float inverse_flux_;           // 0 where there is none
+  double uneven_flux_;           // the same of the luminance above its mean
 };
 
 }  // namespace brume

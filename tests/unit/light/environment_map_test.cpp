@@ -127,6 +127,22 @@ TEST(EnvironmentMap, IsSampledWithLittleNoise) {
   EXPECT_LT(deviation / flux.mean(), 0.02);
 }
 
+TEST(EnvironmentMap, IsAsImportantAsItsFluenceAboveTheMean) {
+  const auto importance = [](const EnvironmentMap& map) { return map.importance(Vec3(0.0f)); };
+  EXPECT_EQ(importance({std::vector<Rgb>(64 * 33, Rgb(0.1f, 0.7f, 0.3f)), 64, 33, slanted(), 3.0f}),
+            0.0f);
+
+  // One half of the sphere 2, the other 6. The two columns of cells between them are as bright as
+  // the mean, and half of each belonged to the bright half.
+  const std::size_t width = 512, height = 33;
+  std::vector<Rgb> pixels;
+  for (std::size_t i = 0; i < width * height; ++i)
+    pixels.emplace_back(i % width < width / 2 ? 2.0f : 6.0f);
+  EXPECT_NEAR(importance({pixels, width, height, slanted(), 1.0f}),
+              2.0 * 2.0 * M_PI * (1.0 - 2.0 / width), 1e-3);
+  EXPECT_EQ(importance(black_but_for(0, 0, Rgb(0.0f))), 0.0f);
+}
+
 TEST(EnvironmentMap, WithoutLightGivesNone) {
   const EnvironmentMap map = black_but_for(0, 0, Rgb(0.0f));
   EXPECT_FALSE(map.sample(Vec3(0.0f), {0.4f, 0.9f}));

@@ -126,6 +126,14 @@ TEST(LightSet, ChoosesWhatIsImportantMostOftenAndNothingNever) {
   EXPECT_TRUE(std::isfinite(lights.probability({0, 1, 0}, 0)));  // on the light itself
 }
 
+TEST(LightSet, SeldomLooksForWhatPathsFindThatLeaveTheScene) {
+  const auto even = std::make_shared<ConstantEnvironment>(Rgb(3.0f));
+  const LightSet with_lamp({std::make_shared<PointLight>(Vec3(0, 2, 0), Rgb(0.1f))}, {even});
+  EXPECT_NEAR(with_lamp.probability(Vec3(0.0f), 0), 0.9, 1e-6);
+  EXPECT_NEAR(with_lamp.probability(Vec3(0.0f), 1), 0.1, 1e-6);
+  EXPECT_EQ(LightSet({}, {even}).probability(Vec3(0.0f), 0), 1.0f);
+}
+
 TEST(LightSet, WithoutLightsIsDark) {
   const LightSet lights({}, {});
   EXPECT_FALSE(lights.sample(Vec3(0.0f), 0.5f, Vec2(0.5f)));
