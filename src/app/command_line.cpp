@@ -166,7 +166,7 @@ void add_render(CLI::App& app, RenderOptions& options) {
       ->check(CLI::Range(1, 4096))
       ->type_name("N")
       ->group(run);
-  render.add_flag("--quiet", options.quiet, "Print nothing but warnings and errors")->group(run);
+  render.add_flag("--quiet", options.quiet, "Print warnings and errors only")->group(run);
   add_parsed(render, "--checkpoint-every", "DURATION", options.checkpoint_every, parse_duration,
              "Save all that --resume needs beside the first output (FILE.checkpoint), in such "
              "intervals and at the end")
@@ -205,7 +205,7 @@ void add_trade(CLI::App& app, TradeOptions& options) {
   trade.add_option("--threads", options.render.threads, "Default: all processors")
       ->check(CLI::Range(1, 4096))
       ->type_name("N");
-  trade.add_flag("--quiet", options.render.quiet, "Print no progress");
+  trade.add_flag("--quiet", options.render.quiet, "Print the result, warnings and errors only");
 }
 
 void add_info(CLI::App& app, InfoOptions& options) {

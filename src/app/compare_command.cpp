@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
@@ -100,18 +99,13 @@ void write_json(const CompareOptions& options, const Comparison& c) {
                         {reinterpret_cast<const unsigned char*>(text.data()), text.size()});
 }
 
-Image read_input(const std::string& path) {
-  if (!std::filesystem::exists(path)) throw Error(fmt::format("{}: no such file", path));
-  return read_image_with_errors(path);
-}
-
 }  // namespace
 
 int run_compare(const CompareOptions& options) {
   if (!options.heat_map_path.empty()) check_output_path(options.heat_map_path);
   if (!options.json_path.empty()) check_writable(options.json_path);
-  const Image picture = read_input(options.picture);
-  const Image reference = read_input(options.reference);
+  const Image picture = read_image_with_errors(options.picture);
+  const Image reference = read_image_with_errors(options.reference);
   const Comparison comparison = compare(picture, reference);
   if (!options.heat_map_path.empty())
     write_image(options.heat_map_path, with_legend(heat_map(picture, reference)));

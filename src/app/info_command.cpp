@@ -30,7 +30,7 @@ int run_info(const InfoOptions& options) {
   Notices notices;
   const LoadedScene loaded =
       load_input({.input = options.input, .definitions = options.definitions}, notices);
-  print_notices(notices);
+  print_notices(notices, /*quiet=*/false);
   print_requirements(loaded);
   return 0;
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <filesystem>
 
 #include "core/error.h"
@@ -10,8 +11,18 @@
 
 namespace brume {
 
+namespace {
+
+std::string extension_of(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
+}
+
+}  // namespace
+
 bool is_volume_path(const std::string& path) {
-  const std::string extension = std::filesystem::path(path).extension();
+  const std::string extension = extension_of(path);
   return extension == ".vdb" || extension == ".nvdb" || extension == ".vol";
 }
 
@@ -28,7 +39,7 @@ LoadedScene load_input(const RenderOptions& options, Notices& notices) {
     volume.settings = options.settings;
     return make_volume_scene(volume, notices);
   }
-  if (std::filesystem::path(options.input).extension() != ".xml")
+  if (extension_of(options.input) != ".xml")
     throw Error(
         fmt::format("{}: the extension says neither scene (.xml) nor volume (.vdb, .nvdb, "
                     ".vol)",
@@ -41,8 +52,12 @@ LoadedScene load_input(const RenderOptions& options, Notices& notices) {
   return load_scene(options.input, options.definitions, notices, options.size, options.settings);
 }
 
-void print_notices(const Notices& notices) {
-  for (const std::string& notice : notices) fmt::print(stderr, "note: {}\n", notice);
+void print_notices(const Notices& notices, bool quiet) {
+  for (const Notice& notice : notices.all())
+    if (notice.is_warning)
+      fmt::print(stderr, "warning: {}\n", notice.text);
+    else if (!quiet)
+      fmt::print(stderr, "note: {}\n", notice.text);
 }
 
 }  // namespace brume

@@ -14,7 +14,7 @@ bool is_volume_path(const std::string& path);
 /// Loads the scene or volume that the options name, with what they override. Throws an Error.
 LoadedScene load_input(const RenderOptions& options, Notices& notices);
 
-/// Prints each notice as a line of stderr.
-void print_notices(const Notices& notices);
+/// Prints each notice as a line of stderr; only warnings if `quiet`.
+void print_notices(const Notices& notices, bool quiet);
 
 }  // namespace brume

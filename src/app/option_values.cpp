@@ -52,19 +52,19 @@ double parse_error(const char* option, const std::string& text) {
 }
 
 glm::ivec2 parse_size(const char* option, const std::string& text) {
+  constexpr int kMaxSize = 65536;
   glm::ivec2 size(0);
   const char* end = text.data() + text.size();
   const auto width = std::from_chars(text.data(), end, size.x);
   if (width.ec == std::errc{} && width.ptr != end && (*width.ptr == 'x' || *width.ptr == 'X')) {
     const auto height = std::from_chars(width.ptr + 1, end, size.y);
-    constexpr int kMax = 65536;
     if (height.ec == std::errc{} && height.ptr == end && size.x > 0 && size.y > 0 &&
-        size.x <= kMax && size.y <= kMax)
+        size.x <= kMaxSize && size.y <= kMaxSize)
       return size;
   }
   throw CLI::ValidationError(option, fmt::format("\"{}\" is no picture size; write width x height "
-                                                 "in pixels, such as 1280x720",
-                                                 text));
+                                                 "in pixels, such as 1280x720, each at most {}",
+                                                 text, kMaxSize));
 }
 
 Rgb parse_albedo(const char* option, const std::string& text) {

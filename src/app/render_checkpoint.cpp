@@ -17,10 +17,13 @@ RenderCheckpoint::RenderCheckpoint(const RenderOptions& options, const LoadedSce
   if (!options.keeps_checkpoint()) return;
   fingerprint_ = render_fingerprint(options, loaded, film.layers());
   if (!options.resume) return;
-  if (std::filesystem::exists(path_))
+  if (std::filesystem::exists(path_)) {
     state_ = read_checkpoint(path_, *fingerprint_, film);
-  else
-    print_notices({fmt::format("there is no {} to resume: rendering from the start", path_)});
+    return;
+  }
+  Notices notices;
+  notices.note(fmt::format("there is no {} to resume: rendering from the start", path_));
+  print_notices(notices, options.quiet);
 }
 
 void RenderCheckpoint::save(const RenderState& state) const {

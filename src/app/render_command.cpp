@@ -126,7 +126,7 @@ int run_render(const RenderOptions& options) {
 
   Notices notices;
   LoadedScene loaded = load_input(options, notices);
-  print_notices(notices);
+  print_notices(notices, options.quiet);
   if (options.max_depth) loaded.path.max_depth = *options.max_depth;
 
   Film film(std::uint32_t(loaded.film.crop_size.x), std::uint32_t(loaded.film.crop_size.y),

@@ -140,8 +140,6 @@ int run_trade(const TradeOptions& options) {
   if (render.threads == 0) render.threads = int(std::max(std::thread::hardware_concurrency(), 1u));
   std::optional<Reference> reference;
   if (!options.reference_path.empty()) {
-    if (!std::filesystem::exists(options.reference_path))
-      throw Error(fmt::format("{}: no such file", options.reference_path));
     const Image picture = read_image_with_errors(options.reference_path);
     render.size = glm::ivec2(picture.width, picture.height);
     reference = reference_of_picture(picture);
@@ -152,7 +150,7 @@ int run_trade(const TradeOptions& options) {
   RenderOptions own_size = render;
   own_size.size.reset();
   std::optional<LoadedScene> scene = load_input(own_size, notices);
-  print_notices(notices);
+  print_notices(notices, render.quiet);
   const glm::ivec2 full_size = scene->film.size;
   std::vector<Trial> trials = design_trials(*scene);
   scene.reset();  // every trial loads its own

@@ -79,8 +79,7 @@ std::vector<std::size_t> error_channels(const OIIO::ImageSpec& spec) {
 }
 
 Image read(const std::string& path, IntegerEncoding encoding, bool with_errors) {
-  if (!std::filesystem::exists(path))
-    throw Error(fmt::format("{}: no such file", path), ErrorKind::kEnvironment);
+  if (!std::filesystem::exists(path)) throw Error(fmt::format("{}: no such file", path));
 
   OIIO::ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", 1);

@@ -85,8 +85,8 @@ void build_envmap(const SceneNode& node, BuildContext& context, SceneParts& part
     }
   }
   if (clamped > 0) {
-    context.notices.push_back(fmt::format("{}: {} pixels with negative radiance are black there",
-                                          path.string(), clamped));
+    context.notices.warn(fmt::format("{}: {} pixels with negative radiance are black there",
+                                     path.string(), clamped));
   }
   parts.environments.push_back(std::make_shared<EnvironmentMap>(
       std::move(pixels), std::size_t(image.width), std::size_t(image.height), to_world, scale));

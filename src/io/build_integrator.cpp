@@ -31,7 +31,7 @@ IntegratorSettings wrapped(const SceneNode& node, BuildContext& context) {
 }
 
 IntegratorSettings moment(const SceneNode& node, BuildContext& context) {
-  context.notices.push_back(
+  context.notices.warn(
       "integrator \"moment\": the layer stderr holds the standard error of the mean instead of "
       "second moments");
   return wrapped(node, context);

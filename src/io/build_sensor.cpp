@@ -50,7 +50,7 @@ FilmSettings hdr_film(const SceneNode& node, BuildContext& context,
                     int(node.integer("crop_height", rest.y, 1, rest.y))};
   if (size) {
     if (film.crop_size != film.size) {
-      context.notices.push_back("another picture size was asked for: the film's crop is left out");
+      context.notices.note("another picture size was asked for: the film's crop is left out");
     }
     film.size = film.crop_size = *size;
     film.crop_offset = {0, 0};
@@ -58,7 +58,7 @@ FilmSettings hdr_film(const SceneNode& node, BuildContext& context,
   const std::string pixel_format =
       node.choice("pixel_format", {"rgb", "rgba", "luminance", "luminance_alpha", "xyz", "xyza"});
   if (!pixel_format.starts_with("rgb")) {
-    context.notices.push_back(
+    context.notices.warn(
         fmt::format("pixel_format \"{}\": pictures are RGB with alpha all the same", pixel_format));
   }
   // The output file decides these.

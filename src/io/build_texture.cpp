@@ -49,7 +49,7 @@ std::shared_ptr<const Texture> build_bitmap(const SceneNode& node, BuildContext&
     }
   }
   if (clamped > 0) {
-    context.notices.push_back(
+    context.notices.warn(
         fmt::format("{}: {} pixels outside [0, 1] are clamped: a texture holds reflectances",
                     path.string(), clamped));
   }

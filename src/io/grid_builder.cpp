@@ -2,9 +2,9 @@
 #include "io/grid_builder.h"
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/ChangeBackground.h>
-#include <openvdb/tools/Dense.h>
 #include <openvdb/tools/LevelSetUtil.h>
 #include <openvdb/tools/Prune.h>
 
@@ -13,6 +13,7 @@
 
 #include "core/error.h"
 #include "io/grid_checks.h"
+#include "io/grid_from_vol.h"
 #include "io/grid_to_nano.h"
 
 namespace brume {
@@ -73,23 +74,46 @@ void turn_into_fog(openvdb::FloatGrid& grid, const std::string& label, Notices& 
     highest = std::max(highest, *value);
   }
   if (lowest == 0.0f)
-    notices.push_back(
-        fmt::format("{}: a level set without an inside: no distance is negative", label));
+    notices.warn(fmt::format("{}: a level set without an inside: no distance is negative", label));
   if (grid.background() <= 0.0f && lowest < 0.0f) {
     const float width = std::max(-lowest, highest);
-    notices.push_back(fmt::format(
+    notices.warn(fmt::format(
         "{}: a level set whose value outside is {:g}, where the width of its band belongs; took "
         "the largest distance in it, {:.4g}",
         label, grid.background(), width));
     openvdb::tools::changeBackground(grid.tree(), width);
   }
   openvdb::tools::sdfToFogVolume(grid);
-  notices.push_back(fmt::format(
+  notices.warn(fmt::format(
       "{}: a level set, turned into fog: density 1 inside, falling to 0 at the surface", label));
 }
 void turn_into_fog(openvdb::Vec3SGrid&, const std::string&, Notices&) {}
 
-/// The same grid in single precision.
+/// Moves a tree of doubles into an empty one of floats. Its leaves are deleted one by one, so that
+/// both trees are never whole at the same time.
+template <class WideTree, class NarrowTree>
+void narrow(WideTree& wide, NarrowTree& result) {
+  using Value = typename NarrowTree::ValueType;
+  using NarrowLeaf = typename NarrowTree::LeafNodeType;
+  using WideLeaf = typename WideTree::LeafNodeType;
+  std::vector<WideLeaf*> leaves;
+  wide.stealNodes(leaves);
+  for (WideLeaf*& wide_leaf : leaves) {
+    const std::unique_ptr<const WideLeaf> leaf(wide_leaf);
+    auto narrow_leaf = std::make_unique<NarrowLeaf>(leaf->origin(), openvdb::zeroVal<Value>());
+    Value* values = narrow_leaf->buffer().data();
+    for (openvdb::Index i = 0; i < NarrowLeaf::SIZE; ++i)
+      values[i] = Value(leaf->buffer().data()[i]);
+    narrow_leaf->setValueMask(leaf->getValueMask());
+    result.addLeaf(narrow_leaf.release());
+  }
+  for (auto tile = wide.cbeginValueAll(); tile; ++tile)
+    if (tile.isValueOn() || *tile != wide.background())
+      result.sparseFill(tile.getBoundingBox(), Value(*tile), tile.isValueOn());
+  malloc_trim(0);  // an allocator of small blocks does not return them on its own
+}
+
+/// The same grid in single precision. Uses up `source`.
 template <class Value>
 typename OpenType<Value>::Grid::Ptr in_float(const openvdb::GridBase::Ptr& source,
                                              const std::string& label) {
@@ -101,69 +125,19 @@ typename OpenType<Value>::Grid::Ptr in_float(const openvdb::GridBase::Ptr& sourc
   }
   const auto wide = openvdb::gridPtrCast<DoubleGrid>(source);
   require_sound_tree(wide->tree(), label);
-  // OpenVDB converts trees of doubles, but not of vectors of them.
-  using Narrow = typename FloatGrid::ValueType;
-  const auto narrow = FloatGrid::create(Narrow(wide->background()));
-  narrow->setGridClass(wide->getGridClass());
-  auto accessor = narrow->getAccessor();
-  for (auto value = wide->cbeginValueAll(); value; ++value) {
-    if (!value.isValueOn() && *value == wide->background()) continue;
-    if (value.isVoxelValue())
-      accessor.setValue(value.getCoord(), Narrow(*value));
-    else
-      narrow->sparseFill(value.getBoundingBox(), Narrow(*value));
-  }
-  return narrow;
+  const auto result = FloatGrid::create(typename FloatGrid::ValueType(wide->background()));
+  result->setGridClass(wide->getGridClass());
+  narrow(wide->tree(), result->tree());
+  return result;
 }
 
 /// World placement of a dense volume with voxel centres at integers: Mitsuba's unit cube or box.
-glm::dmat4 placement(const VolFile& vol, const VolumeRequest& request) {
+glm::dmat4 placement(const VolHeader& vol, const VolumeRequest& request) {
   const glm::dvec3 lo = request.use_grid_bbox ? vol.box_min : glm::dvec3(0.0);
   const glm::dvec3 hi = request.use_grid_bbox ? vol.box_max : glm::dvec3(1.0);
   glm::dmat4 m = glm::translate(request.to_world, lo);
   m = glm::scale(m, (hi - lo) / glm::dvec3(vol.resolution));
   return glm::translate(m, glm::dvec3(0.5));
-}
-
-int wrapped_index(int i, int n, Wrap wrap) {
-  if (wrap == Wrap::kRepeat) return (i + n) % n;
-  return std::clamp(i, 0, n - 1);  // one layer of a mirror is a clamp too
-}
-
-/// As for trees: OpenVDB takes a NaN for the background when it fills a tree from dense data.
-void require_finite(const VolFile& vol, const glm::dmat4& world_from_index,
-                    const std::string& label) {
-  const auto is_bad = [](float v) { return !std::isfinite(v); };
-  const std::size_t channels = std::size_t(vol.channels);
-  std::uint64_t count = 0;
-  std::size_t first = 0;
-  for (std::size_t i = 0; i < vol.values.size(); i += channels) {
-    const auto voxel = vol.values.begin() + std::ptrdiff_t(i);
-    if (std::none_of(voxel, voxel + vol.channels, is_bad)) continue;
-    if (count++ == 0) first = i / channels;
-  }
-  if (count == 0) return;
-  const std::size_t nx = std::size_t(vol.resolution.x), ny = std::size_t(vol.resolution.y);
-  fail_as_non_finite(count, {int(first % nx), int(first / nx % ny), int(first / nx / ny)},
-                     world_from_index, label);
-}
-
-/// Stores the voxels that lie one step outside 0 .. n - 1.
-template <class OpenGrid>
-void add_wrapped_layer(OpenGrid& grid, const glm::ivec3& n, Wrap wrap) {
-  auto accessor = grid.getAccessor();
-  for (int z = -1; z <= n.z; ++z)
-    for (int y = -1; y <= n.y; ++y) {
-      const bool outside = y < 0 || y == n.y || z < 0 || z == n.z;
-      for (int x = -1; x <= n.x; x += outside ? 1 : n.x + 1) {
-        const openvdb::Coord inside(wrapped_index(x, n.x, wrap), wrapped_index(y, n.y, wrap),
-                                    wrapped_index(z, n.z, wrap));
-        // By value: setting a voxel may do away with the tile that a reference leads to. Without
-        // the background, the layer of an empty face takes no memory.
-        const auto value = typename OpenGrid::ValueType(accessor.getValue(inside));
-        if (value != grid.background()) accessor.setValue({x, y, z}, value);
-      }
-    }
 }
 
 }  // namespace
@@ -188,17 +162,16 @@ std::shared_ptr<const Grid<Value>> build_grid(openvdb::GridBase::Ptr source,
 
   openvdb::CoordBBox active;
   if (!tree.evalActiveVoxelBoundingBox(active)) {
-    notices.push_back(fmt::format("{}: empty, rendered as vacuum", label));
+    notices.warn(fmt::format("{}: empty, rendered as vacuum", label));
     return vacuum<Value>(world_from_index, request.interpolation);
   }
   openvdb::tools::prune(tree);
   const auto zero = openvdb::zeroVal<typename OpenType<Value>::Grid::ValueType>();
   const bool zero_background = tree.background() == zero;
   if (!zero_background)
-    notices.push_back(fmt::format(
+    notices.warn(fmt::format(
         "{}: the value outside its voxels is not 0; the volume ends with its voxels", label));
-  if (is_zero(tree))
-    notices.push_back(fmt::format("{}: every voxel is 0, rendered as vacuum", label));
+  if (is_zero(tree)) notices.warn(fmt::format("{}: every voxel is 0, rendered as vacuum", label));
 
   // Trilinear interpolation of the outermost voxels falls to the background within one voxel.
   const bool fades = request.interpolation == Interpolation::kTrilinear && zero_background;
@@ -209,25 +182,19 @@ std::shared_ptr<const Grid<Value>> build_grid(openvdb::GridBase::Ptr source,
 }
 
 template <class Value>
-std::shared_ptr<const Grid<Value>> build_grid(const VolFile& vol, const VolumeRequest& request,
-                                              Notices& notices) {
+std::shared_ptr<const Grid<Value>> build_grid(const VolHeader& vol, const NextLayers& next_layers,
+                                              const VolumeRequest& request, Notices& notices) {
   using OpenGrid = typename OpenType<Value>::Grid;
-  using OpenValue = typename OpenGrid::ValueType;
+  const glm::ivec3 n = vol.resolution;
   const glm::dmat4 world_from_index = placement(vol, request);
   require_invertible(world_from_index, request.path);
 
-  const glm::ivec3 n = vol.resolution;
-  require_finite(vol, world_from_index, request.path);
-  // The type asks for mutable data, and only reads it.
-  auto* values = reinterpret_cast<OpenValue*>(const_cast<float*>(vol.values.data()));
-  const openvdb::tools::Dense<OpenValue, openvdb::tools::LayoutXYZ> dense(
-      openvdb::CoordBBox(openvdb::Coord(0), openvdb::Coord(n.x - 1, n.y - 1, n.z - 1)), values);
-  OpenGrid grid(openvdb::zeroVal<OpenValue>());
-  openvdb::tools::copyFromDense(dense, grid, openvdb::zeroVal<OpenValue>());
+  OpenGrid grid(openvdb::zeroVal<typename OpenGrid::ValueType>());
+  fill_from_vol(grid, vol, next_layers, world_from_index, request.path);
   clean(grid.tree(), request.path, notices);
   if (request.wrap != Wrap::kBackground) add_wrapped_layer(grid, n, request.wrap);
   if (is_zero(grid.tree()))
-    notices.push_back(fmt::format("{}: every voxel is 0, rendered as vacuum", request.path));
+    notices.warn(fmt::format("{}: every voxel is 0, rendered as vacuum", request.path));
   const Box3 box{Vec3(-0.5f), Vec3(n) - 0.5f};
   return finish<Value>(grid, world_from_index, box, request.interpolation, request.wrap);
 }
@@ -236,9 +203,9 @@ template std::shared_ptr<const Grid<float>> build_grid(openvdb::GridBase::Ptr, c
                                                        const VolumeRequest&, Notices&);
 template std::shared_ptr<const Grid<Rgb>> build_grid(openvdb::GridBase::Ptr, const std::string&,
                                                      const VolumeRequest&, Notices&);
-template std::shared_ptr<const Grid<float>> build_grid(const VolFile&, const VolumeRequest&,
-                                                       Notices&);
-template std::shared_ptr<const Grid<Rgb>> build_grid(const VolFile&, const VolumeRequest&,
-                                                     Notices&);
+template std::shared_ptr<const Grid<float>> build_grid(const VolHeader&, const NextLayers&,
+                                                       const VolumeRequest&, Notices&);
+template std::shared_ptr<const Grid<Rgb>> build_grid(const VolHeader&, const NextLayers&,
+                                                     const VolumeRequest&, Notices&);
 
 }  // namespace brume

@@ -23,7 +23,7 @@ std::shared_ptr<const Grid<Value>> build_grid(openvdb::GridBase::Ptr source,
 
 /// The same for a dense volume with the right number of channels.
 template <class Value>
-std::shared_ptr<const Grid<Value>> build_grid(const VolFile& source, const VolumeRequest& request,
-                                              Notices& notices);
+std::shared_ptr<const Grid<Value>> build_grid(const VolHeader& vol, const NextLayers& next_layers,
+                                              const VolumeRequest& request, Notices& notices);
 
 }  // namespace brume

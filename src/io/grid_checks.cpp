@@ -123,8 +123,8 @@ void clean(Tree& tree, const std::string& label, Notices& notices) {
     if (tile.getValue() != background) tile.setActiveState(true);
   }
   if (negative > 0)
-    notices.push_back(fmt::format("{}: {} negative {} set to 0", label, negative,
-                                  negative == 1 ? "voxel was" : "voxels were"));
+    notices.warn(fmt::format("{}: {} negative {} set to 0", label, negative,
+                             negative == 1 ? "voxel was" : "voxels were"));
 }
 
 template <class Tree>

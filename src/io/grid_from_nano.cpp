@@ -81,8 +81,8 @@ class NanoReader {
   using NanoLeaf = nanovdb::NanoLeaf<Build>;
 
  public:
-  NanoReader(const std::uint8_t* data, std::uint64_t size)
-      : data_(data), size_(size), visited_(size / NANOVDB_DATA_ALIGNMENT) {}
+  NanoReader(ConsumableBuffer& buffer, std::uint64_t offset, std::uint64_t size)
+      : buffer_(buffer), offset_(offset), size_(size), visited_(size / NANOVDB_DATA_ALIGNMENT) {}
 
   typename OpenGrid::Ptr read() {
     const auto& header = at<nanovdb::GridData>(0, sizeof(nanovdb::GridData));
@@ -113,7 +113,7 @@ class NanoReader {
   const T& at(std::uint64_t position, std::uint64_t bytes) const {
     if (position > size_ || bytes > size_ - position) throw_outside();
     if (position % NANOVDB_DATA_ALIGNMENT != 0) throw std::runtime_error("a node is not aligned");
-    return *reinterpret_cast<const T*>(data_ + position);
+    return *reinterpret_cast<const T*>(buffer_.data() + offset_ + position);
   }
 
   /// Where the child of a node at `parent` lies. Each node has one parent, or the tree would be a
@@ -173,13 +173,15 @@ class NanoReader {
     return result;
   }
 
-  std::unique_ptr<OpenLeaf> read_leaf(std::uint64_t position, const openvdb::Coord& origin) const {
+  std::unique_ptr<OpenLeaf> read_leaf(std::uint64_t position, const openvdb::Coord& origin) {
     using Leaf = typename NanoLeaf::DataType;
     const auto& leaf = at<Leaf>(position, sizeof(Leaf));
+    std::uint64_t bytes = sizeof(Leaf);
     if constexpr (std::is_same_v<Build, nanovdb::FpN>) {  // the values lie behind the leaf
       constexpr int kWidest = 16;                         // [bits]
       if (leaf.bitWidth() > kWidest) throw std::runtime_error("a value has too many bits");
-      at<Leaf>(position, leaf.memUsage());
+      bytes = leaf.memUsage();
+      at<Leaf>(position, bytes);
     }
     auto result =
         std::make_unique<OpenLeaf>(origin, openvdb::zeroVal<typename OpenLeaf::ValueType>());
@@ -188,20 +190,26 @@ class NanoReader {
       values[i] = to_open(leaf.getValue(i));
       result->setActiveState(i, leaf.mValueMask.isOn(i));
     }
+    buffer_.consume(offset_ + position, bytes);
     return result;
   }
 
-  const std::uint8_t* data_;
-  std::uint64_t size_;                           // [bytes]
+  ConsumableBuffer& buffer_;
+  std::uint64_t offset_, size_;                  // [bytes] of the grid in the buffer
   std::vector<bool> visited_;                    // one for each place where a node can begin
   std::array<std::uint32_t, 3> count_{0, 0, 0};  // of nodes by level, leaves first
 };
 
+template <class Build>
+openvdb::GridBase::Ptr read_as(ConsumableBuffer& data, std::uint64_t offset, std::uint64_t size) {
+  return NanoReader<Build>(data, offset, size).read();
+}
+
 }  // namespace
 
-openvdb::GridBase::Ptr grid_from_nano(const std::uint8_t* data, std::uint64_t size,
-                                      std::uint32_t type) {
-  const auto* grid = reinterpret_cast<const nanovdb::GridData*>(data);
+openvdb::GridBase::Ptr grid_from_nano(ConsumableBuffer& data, std::uint64_t offset,
+                                      std::uint64_t size, std::uint32_t type) {
+  const auto* grid = reinterpret_cast<const nanovdb::GridData*>(data.data() + offset);
   if (size < sizeof(nanovdb::GridData)) throw std::runtime_error("too short for a grid");
   if (grid->mMagic != NANOVDB_MAGIC_NUMBER) throw std::runtime_error("not a NanoVDB grid");
   if (std::uint32_t(grid->mGridType) != type)
@@ -210,21 +218,21 @@ openvdb::GridBase::Ptr grid_from_nano(const std::uint8_t* data, std::uint64_t si
   using Type = nanovdb::GridType;
   switch (grid->mGridType) {
     case Type::Float:
-      return NanoReader<float>(data, size).read();
+      return read_as<float>(data, offset, size);
     case Type::Double:
-      return NanoReader<double>(data, size).read();
+      return read_as<double>(data, offset, size);
     case Type::Fp4:
-      return NanoReader<nanovdb::Fp4>(data, size).read();
+      return read_as<nanovdb::Fp4>(data, offset, size);
     case Type::Fp8:
-      return NanoReader<nanovdb::Fp8>(data, size).read();
+      return read_as<nanovdb::Fp8>(data, offset, size);
     case Type::Fp16:
-      return NanoReader<nanovdb::Fp16>(data, size).read();
+      return read_as<nanovdb::Fp16>(data, offset, size);
     case Type::FpN:
-      return NanoReader<nanovdb::FpN>(data, size).read();
+      return read_as<nanovdb::FpN>(data, offset, size);
     case Type::Vec3f:
-      return NanoReader<nanovdb::Vec3f>(data, size).read();
+      return read_as<nanovdb::Vec3f>(data, offset, size);
     case Type::Vec3d:
-      return NanoReader<nanovdb::Vec3d>(data, size).read();
+      return read_as<nanovdb::Vec3d>(data, offset, size);
     default:
       throw std::runtime_error("it has no densities or colours");
   }

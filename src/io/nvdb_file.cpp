@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <blosc.h>
 #include <fmt/format.h>
 #include <nanovdb/util/IO.h>
 #include <openvdb/openvdb.h>
-#include <zlib.h>
 
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
 #include "core/error.h"
+#include "io/consumable_buffer.h"
 #include "io/grid_file.h"
 #include "io/grid_from_nano.h"
+#include "io/nvdb_data.h"
 
 namespace brume {
 namespace {
 
-using Handle = nanovdb::GridHandle<nanovdb::HostBuffer>;
+using nanovdb::io::GridMetaData;
 
 std::string value_type_in_words(nanovdb::GridType type) {
   using Type = nanovdb::GridType;
@@ -79,10 +80,44 @@ int channels_of(const nanovdb::io::MetaData& grid) {
   }
 }
 
+/// What the file says of the grid at `data`, for one that it does not list.
+GridMetaData read_meta_data(const std::uint8_t* data, std::uint64_t left) {
+  constexpr std::uint64_t kTree = sizeof(nanovdb::GridData);
+  constexpr std::uint64_t kHeaders = kTree + sizeof(nanovdb::TreeData<3>);
+  const auto throw_outside = [] { throw std::runtime_error("a grid lies outside the data"); };
+  if (left < kHeaders) throw_outside();
+  const auto& grid = *reinterpret_cast<const nanovdb::GridData*>(data);
+  if (grid.mMagic != NANOVDB_MAGIC_NUMBER) throw std::runtime_error("not a NanoVDB grid");
+  if (grid.mGridSize > left || grid.mGridSize < kHeaders ||
+      grid.mGridSize % NANOVDB_DATA_ALIGNMENT != 0)
+    throw_outside();
+  const auto& tree = *reinterpret_cast<const nanovdb::TreeData<3>*>(data + kTree);
+  GridMetaData meta;
+  meta.gridSize = grid.mGridSize;
+  meta.voxelCount = tree.mVoxelCount;
+  meta.gridType = grid.mGridType;
+  meta.gridClass = grid.mGridClass;
+  meta.voxelSize = grid.mVoxelSize;
+  meta.gridName.assign(grid.mGridName, ::strnlen(grid.mGridName, sizeof grid.mGridName));
+  // A root of any type begins with its bounding box.
+  const std::uint64_t root = tree.mNodeOffset[3], root_end = grid.mGridSize - kTree;
+  if (root > root_end || root_end - root < sizeof meta.indexBBox) throw_outside();
+  std::memcpy(&meta.indexBBox, data + kTree + root, sizeof meta.indexBBox);
+  return meta;
+}
+
+/// Data of one grid, or of several one after the other, as it is packed in the file.
+struct Pack {
+  NvdbCodec codec;
+  std::int64_t position;            // in the file
+  std::uint64_t packed_size, size;  // [bytes]
+};
+
+/// A grid within the unpacked data.
 struct Entry {
-  nanovdb::io::GridMetaData meta;
-  nanovdb::io::Codec codec;
-  std::int64_t position;  // of the data in the file
+  std::size_t pack;
+  std::uint64_t offset;  // [bytes]
+  GridMetaData meta;
 };
 
 /// NanoVDB trusts every length and offset of a file; here they are held against what is left of it.
@@ -121,13 +156,13 @@ class NvdbFile final : public GridFile {
 
   openvdb::GridBase::Ptr read(std::size_t index) override {
     const Entry& entry = entries_[index];
-    const std::string label = fmt::format("{}: grid \"{}\"", path_, entry.meta.gridName);
     openvdb::GridBase::Ptr grid;
-    with_clear_errors(label, [&] {
-      Handle handle(nanovdb::HostBuffer::create(entry.meta.gridSize));
-      stream_.seekg(entry.position);
-      read_data(entry, handle);
-      grid = grid_from_nano(handle.data(), handle.size(), std::uint32_t(entry.meta.gridType));
+    with_clear_errors(fmt::format("{}: grid \"{}\"", path_, entry.meta.gridName), [&] {
+      const Pack& pack = packs_[entry.pack];
+      ConsumableBuffer data(pack.size);
+      unpack(pack, data.data(), data.size());
+      grid = grid_from_nano(data, entry.offset, entry.meta.gridSize,
+                            std::uint32_t(entry.meta.gridType));
     });
     return grid;
   }
@@ -140,74 +175,62 @@ class NvdbFile final : public GridFile {
     if (header.version.getMajor() != NANOVDB_MAJOR_VERSION_NUMBER)
       throw Error(fmt::format("{}: NanoVDB format {} is not supported; expected {}.x", path_,
                               header.version.c_str(), NANOVDB_MAJOR_VERSION_NUMBER));
-    std::vector<Entry> segment(header.gridCount);
-    for (Entry& entry : segment) {
-      auto& meta = entry.meta;
+    std::vector<GridMetaData> grids(header.gridCount);
+    for (GridMetaData& meta : grids) {
       stream_.read(reinterpret_cast<char*>(static_cast<nanovdb::io::MetaData*>(&meta)),
                    sizeof(nanovdb::io::MetaData));
       if (meta.nameSize > size_ - stream_.tellg()) throw std::runtime_error("the name is too long");
       std::string name(meta.nameSize, '\0');
       stream_.read(name.data(), std::streamsize(name.size()));
       meta.gridName = name.substr(0, name.find('\0'));
-      entry.codec = header.codec;
     }
-    for (Entry& entry : segment) {
-      entry.position = stream_.tellg();
-      const std::uint64_t left = std::uint64_t(size_ - entry.position);
-      if (entry.meta.fileSize > left)
+    for (const GridMetaData& meta : grids) {
+      const Pack pack{NvdbCodec(header.codec), stream_.tellg(), meta.fileSize, meta.gridSize};
+      const std::uint64_t left = std::uint64_t(size_ - pack.position);
+      if (pack.packed_size > left)
         throw Error(fmt::format("{}: truncated: grid \"{}\" has {} bytes, {} are left", path_,
-                                entry.meta.gridName, entry.meta.fileSize, left));
+                                meta.gridName, pack.packed_size, left));
       constexpr std::uint64_t kMaxExpansion = 2048;  // beyond what Zip and Blosc reach
-      if (entry.meta.gridSize / kMaxExpansion > entry.meta.fileSize)
+      if (pack.size / kMaxExpansion > pack.packed_size)
         throw std::runtime_error(
-            fmt::format("{} bytes cannot expand to {}", entry.meta.fileSize, entry.meta.gridSize));
-      stream_.seekg(entry.position + std::int64_t(entry.meta.fileSize));
-      entries_.push_back(std::move(entry));
+            fmt::format("{} bytes cannot expand to {}", pack.packed_size, pack.size));
+      packs_.push_back(pack);
+      with_clear_errors(fmt::format("{}: grid \"{}\"", path_, meta.gridName),
+                        [&] { list_grids_of(pack, meta); });
+      stream_.seekg(pack.position + std::int64_t(pack.packed_size));
     }
   }
 
-  /// Blocks of at most 1 GB, each preceded by its compressed size; uncompressed data is bare.
-  void read_data(const Entry& entry, Handle& handle) {
-    char* out = reinterpret_cast<char*>(handle.data());
-    std::uint64_t left = handle.size();
-    if (entry.codec == nanovdb::io::Codec::NONE) {
-      if (entry.meta.fileSize != left) throw std::runtime_error("its two sizes differ");
-      stream_.read(out, std::streamsize(left));
+  /// Adds the grids of the last pack. The file lists the first; whether others follow in the data,
+  /// and which, stands only there.
+  void list_grids_of(const Pack& pack, const GridMetaData& listed) {
+    const std::size_t index = packs_.size() - 1;
+    nanovdb::GridData first;
+    if (pack.size < sizeof first) throw std::runtime_error("too short for a grid");
+    unpack(pack, reinterpret_cast<std::uint8_t*>(&first), sizeof first);
+    if (first.mGridCount <= 1 || first.mGridSize >= pack.size) {
+      entries_.push_back({index, 0, listed});
       return;
     }
-    const bool zip = entry.codec == nanovdb::io::Codec::ZIP;
-    while (left > 0) {
-      std::uint64_t packed_size = 0;
-      stream_.read(reinterpret_cast<char*>(&packed_size), sizeof packed_size);
-      if (packed_size > entry.meta.fileSize) throw std::runtime_error("a block is too long");
-      std::vector<char> packed(packed_size);
-      stream_.read(packed.data(), std::streamsize(packed_size));
-      constexpr std::uint64_t kBlock = std::uint64_t(1) << 30;
-      const std::uint64_t size = zip ? left : std::min(left, kBlock);
-      if (!(zip ? unzip(packed, out, size) : unblosc(packed, out, size)))
-        throw std::runtime_error("its compressed data is damaged");
-      out += size;
-      left -= size;
+    ConsumableBuffer data(pack.size);
+    unpack(pack, data.data(), data.size());
+    std::uint64_t offset = 0;
+    for (std::uint32_t i = 0; i < first.mGridCount; ++i) {
+      entries_.push_back({index, offset, read_meta_data(data.data() + offset, pack.size - offset)});
+      offset += entries_.back().meta.gridSize;
     }
   }
 
-  static bool unzip(const std::vector<char>& packed, char* out, std::uint64_t size) {
-    uLongf got = size;
-    return uncompress(reinterpret_cast<Bytef*>(out), &got,
-                      reinterpret_cast<const Bytef*>(packed.data()), packed.size()) == Z_OK &&
-           got == size;
-  }
-
-  static bool unblosc(const std::vector<char>& packed, char* out, std::uint64_t size) {
-    std::size_t expected = 0;
-    return blosc_cbuffer_validate(packed.data(), packed.size(), &expected) == 0 &&
-           expected == size &&
-           blosc_decompress_ctx(packed.data(), out, size, /*threads=*/1) == std::int64_t(size);
+  /// The first `size` bytes of the data.
+  void unpack(const Pack& pack, std::uint8_t* out, std::uint64_t size) {
+    stream_.seekg(pack.position);
+    unpack_nvdb(stream_, pack.codec, pack.packed_size, pack.size, out, size);
   }
 
   std::string path_;
   std::ifstream stream_;
   std::int64_t size_;  // [bytes]
+  std::vector<Pack> packs_;
   std::vector<Entry> entries_;
 };
 

@@ -57,8 +57,8 @@ const SceneNode* world_medium_of(const SceneDocument& document, Notices& notices
   }
   const SceneNode::Child& world = candidates.front();
   if (!world.is_reference && !world.node->id.empty()) {
-    notices.push_back(fmt::format("{} belongs to no shape: it fills the space outside all shapes",
-                                  world.node->label()));
+    notices.note(fmt::format("{} belongs to no shape: it fills the space outside all shapes",
+                             world.node->label()));
   }
   return world.node;
 }
@@ -67,9 +67,16 @@ const SceneNode& sensor_of(const SceneNode& root, Notices& notices) {
   const std::vector<SceneNode::Child> sensors = root.children_of("sensor");
   if (sensors.empty()) root.fail("the scene has no sensor");
   if (sensors.size() > 1) {
-    notices.push_back(fmt::format("the scene has {} sensors; the first is used", sensors.size()));
+    notices.warn(fmt::format("the scene has {} sensors; the first is used", sensors.size()));
   }
   return *sensors.front().node;
+}
+
+void warn_of_darkness(const SceneParts& parts, Notices& notices) {
+  const bool shines = !parts.lights.empty() || !parts.environments.empty() ||
+                      std::any_of(parts.surfaces.begin(), parts.surfaces.end(),
+                                  [](const Surface& s) { return s.radiance.has_value(); });
+  if (!shines) notices.warn("the scene has no emitter: its picture is black");
 }
 
 // Anything else that is referred to stands in the scene already.
@@ -88,7 +95,7 @@ void note_unused(const SceneDocument& document, Notices& notices) {
   for (const char* tag : {"bsdf", "texture", "phase", "volume", "sampler", "film", "rfilter"}) {
     for (const SceneNode::Child& child : document.root->children_of(tag)) {
       if (!used.contains(child.node)) {
-        notices.push_back(
+        notices.warn(
             fmt::format("{}: {} is used nowhere", child.at.to_string(), child.node->label()));
       }
     }
@@ -110,7 +117,7 @@ void check_camera_medium(const SceneNode& sensor_node, const SensorSettings& sen
       fmt::format("{} refers to {}, but the boundaries around it put it in {}", sensor_node.label(),
                   sensor.medium->label(), name);
   if (found.unanimous) fail_at(sensor.medium_at, message);
-  context.notices.push_back(
+  context.notices.warn(
       fmt::format("{}: {} (not all of them agree)", sensor.medium_at.to_string(), message));
 }
 
@@ -206,13 +213,14 @@ LoadedScene load_scene(const std::filesystem::path& path, const Definitions& def
     world = build_world(document, sensor_node, moved, size);
     context.media = std::move(moved.media);
   }
+  warn_of_darkness(world.parts, notices);
   note_unused(document, notices);
   root.finish();
 
   auto scene = std::make_unique<const Scene>(std::move(world.parts));
   check_camera_medium(sensor_node, world.sensor, *scene, context);
   if (!context.without_effect.empty()) {
-    notices.push_back(
+    notices.warn(
         fmt::format("accepted without effect: {}", fmt::join(context.without_effect, ", ")));
   }
   return {.scene = std::move(scene),

@@ -226,9 +226,8 @@ glm::dmat4 transform_value(const XmlElement& element) {
   }
   const double volume = std::abs(glm::determinant(glm::dmat3(m)));
   const bool is_finite = std::isfinite(volume) && std::isfinite(m[3].x + m[3].y + m[3].z);
-  if (!is_finite || volume == 0.0) {
-    fail_at(element.at, "the transform is singular: it flattens space");
-  }
+  if (!is_finite) fail_at(element.at, "the transform is not finite: its numbers are too large");
+  if (volume == 0.0) fail_at(element.at, "the transform is singular: it flattens space");
   return m;
 }
 

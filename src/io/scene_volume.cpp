@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "core/error.h"
 #include "io/constant_grid.h"
 #include "volume/bounds_grid.h"
 
@@ -15,11 +16,16 @@ Interpolation interpolation(const SceneNode& node) {
              : Interpolation::kTrilinear;
 }
 
-SceneVolume load(const VolumeRequest& request, BuildContext& context) {
-  return {.constant = {},
-          .to_world = request.to_world,
-          .grid = load_grid(request, context.notices),
-          .source = request.path};
+SceneVolume load(const SceneNode& node, const VolumeRequest& request, BuildContext& context) {
+  try {
+    return {.constant = {},
+            .to_world = request.to_world,
+            .grid = load_grid(request, context.notices),
+            .source = request.path};
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kInput) throw;
+    fail_at(node.position(request.grid.empty() ? "filename" : "grid"), error.what());
+  }
 }
 
 SceneVolume constant_volume(const SceneNode& node, ColourUse use, BuildContext& context) {
@@ -51,7 +57,7 @@ SceneVolume grid_volume(const SceneNode& node, ColourUse /*use*/, BuildContext& 
                                                          : Wrap::kClamp,
                               .use_grid_bbox = node.boolean("use_grid_bbox", node.old_dialect),
                               .to_world = context.to_world(node)};
-  return load(request, context);
+  return load(node, request, context);
 }
 
 SceneVolume vdb_volume(const SceneNode& node, ColourUse /*use*/, BuildContext& context) {
@@ -61,7 +67,7 @@ SceneVolume vdb_volume(const SceneNode& node, ColourUse /*use*/, BuildContext& c
                               .grid = node.text("grid", ""),
                               .interpolation = interpolation(node),
                               .to_world = context.to_world(node)};
-  return load(request, context);
+  return load(node, request, context);
 }
 
 using Build = SceneVolume (*)(const SceneNode&, ColourUse, BuildContext&);

@@ -58,10 +58,15 @@ void require_file(const std::filesystem::path& path) {
     throw Error(fmt::format("{}: is a device or a pipe, not a file", path.string()));
 }
 
+void fail_to_open(const std::filesystem::path& path) {
+  throw Error(fmt::format("{}: {}", path.string(), std::strerror(errno)),
+              errno == ENOENT ? ErrorKind::kInput : ErrorKind::kEnvironment);
+}
+
 std::string read_whole_file(const std::filesystem::path& path) {
   require_file(path);
   std::FILE* file = std::fopen(path.c_str(), "rb");
-  if (file == nullptr) throw Error(fmt::format("{}: {}", path.string(), std::strerror(errno)));
+  if (file == nullptr) fail_to_open(path);
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> closer(file, &std::fclose);
   std::string text;
   char block[1 << 16];

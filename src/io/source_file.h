@@ -18,6 +18,10 @@ struct SourceFile {
 /// could be read for ever. A path that leads nowhere passes: opening it tells why.
 void require_file(const std::filesystem::path& path);
 
+/// Throws what errno says about a file that could not be opened: an input error where there is
+/// none.
+[[noreturn]] void fail_to_open(const std::filesystem::path& path);
+
 /// Reads a file whole. Throws an input error that names the path when there is none to read.
 std::string read_whole_file(const std::filesystem::path& path);
 

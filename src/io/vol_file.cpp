@@ -19,7 +19,7 @@ namespace {
 //
 //     0  'V' 'O' 'L' 3      8  resolution x, y, z (int32)    24  box min, max (6 float32)
 //     4  encoding (int32)  20  channels (int32)              48  values
-struct Header {
+struct FileHeader {
   char magic[3];
   std::uint8_t version;
   std::int32_t encoding;
@@ -27,11 +27,11 @@ struct Header {
   std::int32_t channels;
   float box[6];
 };
-static_assert(sizeof(Header) == 48);
+static_assert(sizeof(FileHeader) == 48);
 
 struct Encoding {
   const char* name;
-  std::size_t bytes;
+  int bytes;
 };
 
 Encoding encoding_of(std::int32_t code, const std::string& path) {
@@ -48,72 +48,65 @@ Encoding encoding_of(std::int32_t code, const std::string& path) {
       code));
 }
 
-VolFile read(const std::string& path, bool with_values) {
-  std::ifstream stream(path, std::ios::binary);
-  const std::uintmax_t file_size = std::filesystem::file_size(path);
-  Header header{};
-  if (!stream.read(reinterpret_cast<char*>(&header), sizeof header))
-    throw Error(fmt::format("{}: truncated: a .vol header has {} bytes, the file {}", path,
-                            sizeof header, file_size));
-  if (header.version != 3)
-    throw Error(
-        fmt::format("{}: .vol version {} is not supported; expected 3", path, header.version));
-  const Encoding encoding = encoding_of(header.encoding, path);
-  for (const std::int32_t n : header.resolution)
-    if (n < 1)
-      throw Error(fmt::format("{}: .vol resolution {} x {} x {}; expected at least 1 on each axis",
-                              path, header.resolution[0], header.resolution[1],
-                              header.resolution[2]));
-  if (header.channels != 1 && header.channels != 3)
-    throw Error(fmt::format("{}: .vol with {} channels; expected 1 or 3", path, header.channels));
-
-  // In double: the product of four 31-bit numbers overflows any integer.
-  const double expected = double(sizeof header) + double(header.resolution[0]) *
-                                                      header.resolution[1] * header.resolution[2] *
-                                                      header.channels * double(encoding.bytes);
-  if (expected > double(file_size))
-    throw Error(fmt::format(
-        "{}: truncated: {} x {} x {} voxels of {} {} values take {:.0f} bytes, the file has {}",
-        path, header.resolution[0], header.resolution[1], header.resolution[2], header.channels,
-        encoding.name, expected, file_size));
-
-  VolFile vol{.resolution = {header.resolution[0], header.resolution[1], header.resolution[2]},
-              .channels = header.channels,
-              .box_min = {header.box[0], header.box[1], header.box[2]},
-              .box_max = {header.box[3], header.box[4], header.box[5]},
-              .value_type = encoding.name,
-              .values = {}};
-  if (!with_values) return vol;
-
-  const std::size_t count = std::size_t(vol.resolution.x) * std::size_t(vol.resolution.y) *
-                            std::size_t(vol.resolution.z) * std::size_t(vol.channels);
-  std::vector<char> bytes(count * encoding.bytes);
-  if (!stream.read(bytes.data(), std::streamsize(bytes.size())))
-    throw Error(fmt::format("{}: could not be read to its end", path), ErrorKind::kEnvironment);
-  vol.values.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (encoding.bytes == 4) {
-      std::memcpy(&vol.values[i], &bytes[4 * i], 4);
-    } else if (encoding.bytes == 2) {
-      std::uint16_t bits;
-      std::memcpy(&bits, &bytes[2 * i], 2);
-      openvdb::math::half half;
-      half.setBits(bits);
-      vol.values[i] = half;
-    } else {
-      vol.values[i] = float(static_cast<unsigned char>(bytes[i])) / 255.0f;
-    }
-  }
-  return vol;
-}
-
 }  // namespace
 
-VolFile read_vol_header(const std::string& path) {
-  return read(path, false);
+VolReader::VolReader(std::string path)
+    : path_(std::move(path)),
+      stream_(path_, std::ios::binary),
+      file_bytes_(std::filesystem::file_size(path_)) {
+  FileHeader file{};
+  if (!stream_.read(reinterpret_cast<char*>(&file), sizeof file))
+    throw Error(fmt::format("{}: truncated: a .vol header has {} bytes, the file {}", path_,
+                            sizeof file, file_bytes_));
+  if (file.version != 3)
+    throw Error(
+        fmt::format("{}: .vol version {} is not supported; expected 3", path_, file.version));
+  const Encoding encoding = encoding_of(file.encoding, path_);
+  const glm::ivec3 n(file.resolution[0], file.resolution[1], file.resolution[2]);
+  if (n.x < 1 || n.y < 1 || n.z < 1)
+    throw Error(fmt::format("{}: .vol resolution {} x {} x {}; expected at least 1 on each axis",
+                            path_, n.x, n.y, n.z));
+  if (file.channels != 1 && file.channels != 3)
+    throw Error(fmt::format("{}: .vol with {} channels; expected 1 or 3", path_, file.channels));
+
+  // In double: the product of four 31-bit numbers overflows any integer.
+  const double expected =
+      double(sizeof file) + double(n.x) * n.y * n.z * file.channels * double(encoding.bytes);
+  if (expected > double(file_bytes_))
+    throw Error(fmt::format(
+        "{}: truncated: {} x {} x {} voxels of {} {} values take {:.0f} bytes, the file has {}",
+        path_, n.x, n.y, n.z, file.channels, encoding.name, expected, file_bytes_));
+
+  header_ = {.resolution = n,
+             .channels = file.channels,
+             .box_min = {file.box[0], file.box[1], file.box[2]},
+             .box_max = {file.box[3], file.box[4], file.box[5]},
+             .value_type = encoding.name,
+             .bytes = std::uint64_t(expected)};
+  bytes_of_value_ = encoding.bytes;
 }
-VolFile read_vol_file(const std::string& path) {
-  return read(path, true);
+
+std::vector<float> VolReader::read_layers(int count) {
+  std::vector<float> values(std::size_t(header_.resolution.x) * std::size_t(header_.resolution.y) *
+                            std::size_t(header_.channels) * std::size_t(count));
+  const std::size_t bytes = values.size() * std::size_t(bytes_of_value_);
+  char* const packed = reinterpret_cast<char*>(values.data());
+  if (!stream_.read(packed, std::streamsize(bytes)))
+    throw Error(fmt::format("{}: could not be read to its end", path_), ErrorKind::kEnvironment);
+  if (bytes_of_value_ == sizeof(float)) return values;
+  // Widened where they are: the last first, lest one be written over another that is still packed.
+  for (std::size_t i = values.size(); i-- > 0;) {
+    if (bytes_of_value_ == 2) {
+      std::uint16_t bits;
+      std::memcpy(&bits, packed + 2 * i, 2);
+      openvdb::math::half half;
+      half.setBits(bits);
+      values[i] = half;
+    } else {
+      values[i] = float(static_cast<unsigned char>(packed[i])) / 255.0f;
+    }
+  }
+  return values;
 }
 
 }  // namespace brume

@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <glm/vector_relational.hpp>
@@ -26,9 +24,7 @@ enum class Format { kVdb, kNvdb, kVol };
 Format format_of(const std::string& path) {
   require_file(path);
   std::ifstream stream(path, std::ios::binary);
-  if (!stream)
-    throw Error(fmt::format("{}: {}", path, std::strerror(errno)),
-                errno == ENOENT ? ErrorKind::kInput : ErrorKind::kEnvironment);
+  if (!stream) fail_to_open(path);
   char start[8] = {};
   stream.read(start, sizeof start);
   const std::string_view magic(start, std::size_t(stream.gcount()));
@@ -57,7 +53,7 @@ void set_selectors(std::vector<GridSummary>& grids) {
   }
 }
 
-GridSummary summary_of(const std::string& path, const VolFile& vol) {
+GridSummary summary_of(const std::string& path, const VolHeader& vol) {
   const glm::dvec3 size = (vol.box_max - vol.box_min) / glm::dvec3(vol.resolution);
   const auto voxels = std::uint64_t(vol.resolution.x) * std::uint64_t(vol.resolution.y) *
                       std::uint64_t(vol.resolution.z);
@@ -79,10 +75,6 @@ std::string listing(const std::vector<GridSummary>& grids) {
   return text;
 }
 
-std::string_view wanted(int channels) {
-  return channels == 1 ? "a density (float or double)" : "a colour (vec3 float or double)";
-}
-
 /// The grid named, or nothing; of several with the name the first, and says so.
 std::optional<std::size_t> find_named(const std::vector<GridSummary>& grids,
                                       const VolumeRequest& request, Notices& notices) {
@@ -90,8 +82,8 @@ std::optional<std::size_t> find_named(const std::vector<GridSummary>& grids,
     if (grids[i].selector == request.grid) return i;
   for (std::size_t i = 0; i < grids.size(); ++i) {
     if (grids[i].name == request.grid) {
-      notices.push_back(fmt::format("{}: several grids are called \"{}\"; took \"{}\"",
-                                    request.path, request.grid, grids[i].selector));
+      notices.warn(fmt::format("{}: several grids are called \"{}\"; took \"{}\"", request.path,
+                               request.grid, grids[i].selector));
       return i;
     }
     if (grids[i].name + "[0]" == request.grid) return i;  // the only one of its name
@@ -99,7 +91,8 @@ std::optional<std::size_t> find_named(const std::vector<GridSummary>& grids,
   return std::nullopt;
 }
 
-/// The grid called "density", or the only one with these channels.
+/// The grid called "density", or the one with these channels if all that have them share a name; of
+/// several the first, and says so.
 std::optional<std::size_t> find_automatically(const std::vector<GridSummary>& grids, int channels,
                                               const std::string& path, Notices& notices) {
   std::vector<std::size_t> fitting, densities;
@@ -108,18 +101,22 @@ std::optional<std::size_t> find_automatically(const std::vector<GridSummary>& gr
     fitting.push_back(i);
     if (grids[i].name == "density") densities.push_back(i);
   }
-  if (densities.size() > 1)
-    notices.push_back(fmt::format("{}: {} grids are called \"density\"; took \"{}\"", path,
-                                  densities.size(), grids[densities[0]].selector));
-  if (!densities.empty()) return densities[0];
-  if (fitting.size() == 1) return fitting[0];
-  return std::nullopt;
+  const std::vector<std::size_t>& meant = densities.empty() ? fitting : densities;
+  const auto is_namesake = [&](std::size_t i) { return grids[i].name == grids[meant[0]].name; };
+  if (meant.empty() || !std::all_of(meant.begin(), meant.end(), is_namesake)) return std::nullopt;
+  const std::size_t first = meant[0];
+  if (meant.size() > 1)
+    notices.warn(fmt::format("{}: {} grids are called \"{}\"; took \"{}\"", path, meant.size(),
+                             grids[first].name, grids[first].selector));
+  return first;
 }
 
-/// `channels` 0 accepts either number, a scalar first.
-std::size_t choose(const std::vector<GridSummary>& grids, int channels,
+/// Which grid to take: a density, or where colours will do as well, one if there is no density.
+std::size_t choose(const std::vector<GridSummary>& grids, bool takes_colours,
                    const VolumeRequest& request, Notices& notices) {
   const std::string& path = request.path;
+  const char* const wanted =
+      takes_colours ? "a density or a colour" : "a density (float or double)";
   if (!request.grid.empty()) {
     const auto named = find_named(grids, request, notices);
     if (!named) {
@@ -131,49 +128,51 @@ std::size_t choose(const std::vector<GridSummary>& grids, int channels,
           nearest.empty() ? "." : fmt::format("; did you mean \"{}\"?", nearest), listing(grids)));
     }
     const int found = grids[*named].channels;
-    if (found == 0 || (channels != 0 && found != channels))
+    if (found == 0 || (found == 3 && !takes_colours))
       throw Error(fmt::format("{}: grid \"{}\" is of type {}, which is not {}. {}", path,
-                              grids[*named].selector, grids[*named].value_type,
-                              channels == 0 ? "a density or a colour" : wanted(channels),
+                              grids[*named].selector, grids[*named].value_type, wanted,
                               listing(grids)));
     return *named;
   }
-  auto found = find_automatically(grids, channels == 0 ? 1 : channels, path, notices);
-  const bool has_scalar =
-      std::any_of(grids.begin(), grids.end(), [](const GridSummary& g) { return g.channels == 1; });
-  if (!found && channels == 0 && !has_scalar) found = find_automatically(grids, 3, path, notices);
-  if (found) return *found;
-  const int sought = channels == 0 ? 1 : channels;
-  const bool several = std::any_of(grids.begin(), grids.end(),
-                                   [&](const GridSummary& g) { return g.channels == sought; });
-  throw Error(several ? fmt::format("{}: several grids could be meant; choose one by its name. {}",
-                                    path, listing(grids))
-                      : fmt::format("{}: no grid is {}. {}", path, wanted(sought), listing(grids)));
+  const auto count = [&](int channels) {
+    return std::count_if(grids.begin(), grids.end(),
+                         [&](const GridSummary& g) { return g.channels == channels; });
+  };
+  const int channels = takes_colours && count(1) == 0 ? 3 : 1;
+  if (const auto found = find_automatically(grids, channels, path, notices)) return *found;
+  throw Error(count(channels) > 1
+                  ? fmt::format("{}: several grids could be meant; choose one by its name. {}",
+                                path, listing(grids))
+                  : fmt::format("{}: no grid is {}. {}", path, wanted, listing(grids)));
 }
 
-AnyGrid build_vol(const VolumeRequest& request, int channels, Notices& notices) {
-  const VolFile vol = read_vol_file(request.path);
-  if (channels != 0 && vol.channels != channels)
-    throw Error(fmt::format("{}: has {} {} a voxel where {} {} needed", request.path, vol.channels,
-                            vol.channels == 1 ? "channel" : "channels", channels,
-                            channels == 1 ? "is" : "are"));
-  if (vol.channels == 1) return build_grid<float>(vol, request, notices);
-  return build_grid<Rgb>(vol, request, notices);
+AnyGrid build_vol(const VolumeRequest& request, bool takes_colours, Notices& notices) {
+  VolReader vol(request.path);
+  if (vol.header().channels == 3 && !takes_colours)
+    throw Error(fmt::format(
+        "{}: a colour (3 channels a voxel), where a density (1 channel) is needed", request.path));
+  if (vol.file_bytes() > vol.header().bytes)
+    notices.warn(
+        fmt::format("{}: has {} bytes, of which its header makes {}; the rest was not read",
+                    request.path, vol.file_bytes(), vol.header().bytes));
+  const auto next_layers = [&](int count) { return vol.read_layers(count); };
+  if (vol.header().channels == 1)
+    return build_grid<float>(vol.header(), next_layers, request, notices);
+  return build_grid<Rgb>(vol.header(), next_layers, request, notices);
 }
 
-/// `channels` 0 takes either.
-AnyGrid load(const VolumeRequest& request, int channels, Notices& notices) {
+AnyGrid load(const VolumeRequest& request, bool takes_colours, Notices& notices) {
   const Format format = format_of(request.path);
   AnyGrid result;
   with_clear_errors(request.path, [&] {
     if (format == Format::kVol) {
-      result = build_vol(request, channels, notices);
+      result = build_vol(request, takes_colours, notices);
       return;
     }
     const auto file = open_sparse(format, request.path);
     std::vector<GridSummary> grids = file->summaries();
     set_selectors(grids);
-    const std::size_t index = choose(grids, channels, request, notices);
+    const std::size_t index = choose(grids, takes_colours, request, notices);
     const std::string label = fmt::format("{}: grid \"{}\"", request.path, grids[index].selector);
     openvdb::GridBase::Ptr source = file->read(index);
     if (grids[index].channels == 1)
@@ -191,7 +190,7 @@ std::vector<GridSummary> list_grids(const std::string& path) {
   std::vector<GridSummary> grids;
   with_clear_errors(path, [&] {
     if (format == Format::kVol) {
-      grids = {summary_of(path, read_vol_header(path))};
+      grids = {summary_of(path, VolReader(path).header())};
     } else {
       grids = open_sparse(format, path)->summaries();
     }
@@ -219,15 +218,11 @@ std::string describe(const GridSummary& grid) {
 
 std::shared_ptr<const Grid<float>> load_scalar_grid(const VolumeRequest& request,
                                                     Notices& notices) {
-  return std::get<0>(load(request, 1, notices));
-}
-
-std::shared_ptr<const Grid<Rgb>> load_color_grid(const VolumeRequest& request, Notices& notices) {
-  return std::get<1>(load(request, 3, notices));
+  return std::get<0>(load(request, /*takes_colours=*/false, notices));
 }
 
 AnyGrid load_grid(const VolumeRequest& request, Notices& notices) {
-  return load(request, 0, notices);
+  return load(request, /*takes_colours=*/true, notices);
 }
 
 }  // namespace brume

@@ -55,10 +55,8 @@ struct VolumeRequest {
 /// Error that says what the file holds when there is no such grid.
 std::shared_ptr<const Grid<float>> load_scalar_grid(const VolumeRequest& request, Notices& notices);
 
-/// As `load_scalar_grid`, for vectors of three floats or a three-channel .vol.
-std::shared_ptr<const Grid<Rgb>> load_color_grid(const VolumeRequest& request, Notices& notices);
-
-/// Whatever the file holds under the name asked for; without a name a scalar grid comes first.
+/// As `load_scalar_grid`, or vectors of three floats or a three-channel .vol; without a name a
+/// scalar grid comes first.
 using AnyGrid = std::variant<std::shared_ptr<const Grid<float>>, std::shared_ptr<const Grid<Rgb>>>;
 AnyGrid load_grid(const VolumeRequest& request, Notices& notices);
 

@@ -96,7 +96,7 @@ LoadedScene make_volume_scene(const VolumeSceneOptions& options, Notices& notice
   const auto grid = load_scalar_grid({.path = options.path, .grid = options.grid}, notices);
   const double aspect = double(options.size.x) / options.size.y;
   const View view = frame_volume(*grid, aspect);
-  notices.push_back(
+  notices.note(
       fmt::format("camera at ({:.4g}, {:.4g}, {:.4g}) looks at ({:.4g}, {:.4g}, "
                   "{:.4g}), {} degrees wide",
                   view.origin.x, view.origin.y, view.origin.z, view.target.x, view.target.y,
@@ -111,7 +111,7 @@ LoadedScene make_volume_scene(const VolumeSceneOptions& options, Notices& notice
   }
   const std::string origin =
       options.density_scale ? "as given" : "chosen for this; --density-scale changes it";
-  notices.push_back(
+  notices.note(
       fmt::format("density scale {:.4g} ({}): optical thickness {:.3g} through the "
                   "thick part; albedo {:g}, {:g}, {:g}; g {:g}",
                   scale, origin, scale * integral, options.albedo.r, options.albedo.g,
@@ -131,7 +131,7 @@ LoadedScene make_volume_scene(const VolumeSceneOptions& options, Notices& notice
                         (double(std::cos(azimuth)) * flat + double(std::sin(azimuth)) * left) +
                     glm::dvec3(0.0, std::sin(elevation), 0.0));
   const Daylight daylight = make_daylight(glm::normalize(to_sun), kTurbidity);
-  notices.push_back(
+  notices.note(
       fmt::format("sun {} degrees high, {} degrees to the left of the viewer's back; "
                   "sky of a clear day",
                   kSunElevation, kSunAzimuth));

@@ -51,15 +51,4 @@ double student_two_sided(double t, double degrees) {
   return incomplete_beta(0.5 * degrees, 0.5, degrees / (degrees + t * t));
 }
 
-double student_quantile(double probability, double degrees) {
-  assert(probability > 0.0 && probability < 1.0);
-  double lo = 0.0, hi = 1.0;
-  while (student_two_sided(hi, degrees) > probability) hi *= 2.0;
-  for (int i = 0; i < 100; ++i) {
-    const double middle = 0.5 * (lo + hi);
-    (student_two_sided(middle, degrees) > probability ? lo : hi) = middle;
-  }
-  return 0.5 * (lo + hi);
-}
-
 }  // namespace brume

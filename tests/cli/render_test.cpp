@@ -136,6 +136,13 @@ TEST_F(RenderCommand, QuietWritesThePictureAndNothingElse) {
   }
 }
 
+TEST_F(RenderCommand, QuietWarns) {
+  write("cloud.vol", vol_bytes({2, 2, 2}, 1, [](int x, int, int, int) { return x - 0.5; }));
+  const Ended ended = run({"render", "cloud.vol", "--size", "4x3", "--spp", "1", "--quiet"});
+  EXPECT_EQ(ended.exit_code, 0);
+  EXPECT_EQ(ended.err, "warning: cloud.vol: 4 negative voxels were set to 0\n");
+}
+
 TEST_F(RenderCommand, ProgressIsPlainLinesInAFileAndABarOnATerminal) {
   const Ended in_file = run({"render", "scene.xml"});
   EXPECT_THAT(in_file.err, MatchesRegex("100%  4/4 spp  0:00 left .*samples/s\n"));

@@ -88,7 +88,7 @@ TEST_F(Usage, ValuesThatMakeNoSenseAreRefused) {
                        "\" is no relative error below 1; write 1% or 0.01" + try_help);
   expect_refusal({"render", "scene.xml", "--size", "640"}, 2,
                  "brume: --size: \"640\" is no picture size; write width x height in pixels, such "
-                 "as 1280x720" +
+                 "as 1280x720, each at most 65536" +
                      try_help);
   expect_refusal({"render", "scene.xml", "-D", "glow"}, 2,
                  "brume: -D: \"glow\" defines nothing; write name=value" + try_help);

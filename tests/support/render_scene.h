@@ -26,11 +26,11 @@ class TestScene {
                      const std::function<void(const TemporaryFolder&)>& write_files = {},
                      const EstimatorSettings& settings = {}) {
     if (write_files) write_files(folder_);
-    loaded_ = load_scene(folder_.write("scene.xml", xml), {}, notices_, std::nullopt, settings);
+    Notices unheeded;
+    loaded_ = load_scene(folder_.write("scene.xml", xml), {}, unheeded, std::nullopt, settings);
   }
 
   const LoadedScene& loaded() const { return loaded_; }
-  const Notices& notices() const { return notices_; }
   int width() const { return loaded_.film.size.x; }
   int height() const { return loaded_.film.size.y; }
 
@@ -42,7 +42,6 @@ class TestScene {
 
  private:
   TemporaryFolder folder_;
-  Notices notices_;
   LoadedScene loaded_;
 };
 

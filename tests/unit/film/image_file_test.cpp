@@ -198,7 +198,7 @@ TEST_F(ImageFile, CroppedDataWindowIsPutInItsPlace) {
 TEST_F(ImageFile, ReadingNamesTheFileAndWhatWasFound) {
   const auto missing = error_of([&] { read_image(path("none.exr")); });
   EXPECT_THAT(missing.first, HasSubstr(path("none.exr") + ": no such file"));
-  EXPECT_EQ(missing.second, ErrorKind::kEnvironment);
+  EXPECT_EQ(missing.second, ErrorKind::kInput);
 
   std::ofstream(path("text.png")) << "not a picture";
   const auto damaged = error_of([&] { read_image(path("text.png")); });

@@ -105,6 +105,9 @@ const Broken kBroken[] = {
     {"singular",
      R"(<shape type="disk"><transform name="to_world"><scale x="0"/></transform></shape>)",
      R"(scene.xml:2:21: the transform is singular: it flattens space)"},
+    {"transform_beyond_double",
+     R"(<shape type="disk"><transform name="to_world"><scale value="1e300"/></transform></shape>)",
+     R"(scene.xml:2:21: the transform is not finite: its numbers are too large)"},
     {"rotation_axis",
      R"(<shape type="disk"><transform name="to_world"><rotate angle="9"/></transform></shape>)",
      R"(scene.xml:2:48: the axis of a rotation is zero)"},
@@ -241,6 +244,14 @@ TEST_F(SceneErrors, NameAMissingFileAFolderAndADevice) {
   EXPECT_EQ(message("none.xml"), (folder() / "none.xml").string() + ": No such file or directory");
   EXPECT_THAT(message("."), HasSubstr("is a folder, not a file"));
   EXPECT_THAT(message("/dev/zero"), HasSubstr("is a device or a pipe, not a file"));
+}
+
+TEST_F(SceneErrors, SayWhereABadVolumeIsNamed) {
+  write("short.vol", "VOL\x03");
+  EXPECT_EQ(error_line(with_sensor(R"(<medium type="heterogeneous"><volume name="sigma_t" )"
+                                   R"(type="gridvolume"><string name="filename" )"
+                                   R"(value="short.vol"/></volume></medium>)")),
+            "scene.xml:2:102: short.vol: truncated: a .vol header has 48 bytes, the file 4");
 }
 
 TEST_F(SceneErrors, NumbersBeyondSinglePrecisionAreRefused) {

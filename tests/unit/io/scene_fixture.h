@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "io/scene_file.h"
+#include "support/notices.h"
 
 namespace brume::test {
 
@@ -33,7 +34,7 @@ class SceneTest : public ::testing::Test {
   }
 
   LoadedScene load(const std::string& text, const Definitions& definitions = {}) {
-    notices_.clear();
+    notices_ = {};
     return load_scene(write("scene.xml", text), definitions, notices_);
   }
   /// A scene of today's dialect around `body`, with a default sensor.
@@ -71,7 +72,7 @@ class SceneTest : public ::testing::Test {
   }
 
   const std::filesystem::path& folder() const { return folder_; }
-  const Notices& notices() const { return notices_; }
+  std::vector<std::string> notices() const { return in_words(notices_); }
 
  private:
   std::filesystem::path folder_;

@@ -14,6 +14,7 @@
 
 #include "core/error.h"
 #include "io/volume_file.h"
+#include "support/notices.h"
 #include "support/temporary_folder.h"
 
 namespace brume::test {
@@ -44,8 +45,14 @@ class VolumeTest : public ::testing::Test {
   }
 
   std::shared_ptr<const Grid<float>> load(const std::string& file, const std::string& grid = {}) {
-    notices_.clear();
+    notices_ = {};
     return load_scalar_grid({.path = file, .grid = grid}, notices_);
+  }
+
+  std::shared_ptr<const Grid<Rgb>> load_colour(const std::string& file,
+                                               const std::string& grid = {}) {
+    notices_ = {};
+    return std::get<1>(load_grid({.path = file, .grid = grid}, notices_));
   }
 
   /// A grid with one voxel of value 2 at (1, 2, 3).

@@ -81,8 +81,7 @@ TEST_F(NvdbFileLaw, GridsAreChosenByName) {
   const std::string file = write_nvdb(handles, Codec::BLOSC);
   expect_ramp(*load(file), 0.0f);
   expect_ramp(*load(file, "density"), 0.0f);
-  EXPECT_EQ(GridLookup<Rgb>(*load_color_grid({.path = file}, notices_)).nearest({1, 2, 3}),
-            Rgb(2.0f));
+  EXPECT_EQ(GridLookup<Rgb>(*load_colour(file, "Cd")).nearest({1, 2, 3}), Rgb(2.0f));
   EXPECT_THAT(error_of([&] { load(file, "flags"); }),
               AllOf(HasSubstr("int32"), HasSubstr("Cd: vec3 float"), HasSubstr("density: float")));
   EXPECT_THAT(error_of([&] { load(file, "densty"); }), HasSubstr("did you mean \"density\"?"));
@@ -94,6 +93,40 @@ TEST_F(NvdbFileLaw, GridsWithoutNamesHaveNumbers) {
   const std::string file = write_nvdb(nanovdb::openToNanoVDB(*grid), Codec::NONE);
   EXPECT_EQ(list_grids(file).at(0).selector, "[0]");
   expect_ramp(*load(file, "[0]"), 0.0f);
+}
+
+TEST_F(NvdbFileLaw, GridsThatShareABufferAreAllFound) {
+  // The file lists the first of them only.
+  const auto flags = one_voxel<openvdb::Int32Grid>("flags");
+  const auto first = nanovdb::openToNanoVDB(*flags), second = nanovdb::openToNanoVDB(*ramp());
+  for (const Codec codec : {Codec::NONE, Codec::ZIP, Codec::BLOSC}) {
+    auto both = nanovdb::HostBuffer::create(first.size() + second.size());
+    std::memcpy(both.data(), first.data(), first.size());
+    std::memcpy(both.data() + first.size(), second.data(), second.size());
+    std::uint32_t index = 0;
+    for (const std::uint64_t at : {std::uint64_t(0), first.size()}) {
+      auto& grid = *reinterpret_cast<nanovdb::GridData*>(both.data() + at);
+      grid.mGridIndex = index++;
+      grid.mGridCount = 2;
+    }
+    const std::string file =
+        write_nvdb(nanovdb::GridHandle<nanovdb::HostBuffer>(std::move(both)), codec);
+    const std::vector<GridSummary> grids = list_grids(file);
+    ASSERT_EQ(grids.size(), 2u);
+    EXPECT_EQ(describe(grids[1]),
+              "density: float, no class, 7600 active voxels in [1, 0, 0] .. [19, 19, 19], voxel "
+              "size 0.5");
+    expect_ramp(*load(file), 0.0f);
+
+    std::string bytes = read_bytes(file);
+    if (codec != Codec::NONE) continue;
+    const std::uint64_t far = std::uint64_t(1) << 40;
+    const std::size_t size_at =
+        bytes.size() - second.size() + offsetof(nanovdb::GridData, mGridSize);
+    bytes.replace(size_at, sizeof far, reinterpret_cast<const char*>(&far), sizeof far);
+    EXPECT_THAT(error_of([&] { load(write_bytes("far.nvdb", bytes)); }),
+                HasSubstr("a grid lies outside the data"));
+  }
 }
 
 TEST_F(NvdbFileLaw, OtherVersionsAreNamed) {

@@ -85,23 +85,45 @@ TEST_F(VolFileLaw, OneLayerOutsideEmptyVoxelsIsEmpty) {
 
 TEST_F(VolFileLaw, ThreeChannelsAreAColor) {
   const std::string file = write_vol({2, 1, 1}, 3, std::vector<float>{1, 2, 3, 4, 5, 6});
-  const auto grid = load_color_grid({.path = file}, notices_);
+  const auto grid = load_colour(file);
   EXPECT_EQ(GridLookup<Rgb>(*grid).nearest({1, 0, 0}), Rgb(4, 5, 6));
-  EXPECT_EQ(load_grid({.path = file}, notices_).index(), 1u);
-  EXPECT_THAT(error_of([&] { load(file); }), HasSubstr("3 channels a voxel where 1 is needed"));
-  EXPECT_THAT(error_of([&] { load_color_grid({.path = write_numbered()}, notices_); }),
-              HasSubstr("1 channel a voxel where 3 are needed"));
+  EXPECT_THAT(error_of([&] { load(file); }), HasSubstr("a colour (3 channels a voxel)"));
+}
+
+TEST_F(VolFileLaw, VoxelsStayInPlaceInFilesThatAreReadInPieces) {
+  const glm::ivec3 n(1023, 5, 1031);
+  std::vector<float> values(std::size_t(n.x) * n.y * n.z);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = float(i % 4093);
+  const std::string file = write_vol(n, 1, values);
+  const auto grid = load(file);
+  GridLookup<float> lookup(*grid);
+  for (std::size_t i = 0; i < values.size(); i += 101)
+    ASSERT_EQ(lookup.nearest(Vec3(i % n.x, i / n.x % n.y, i / n.x / n.y)), values[i]) << i;
+  values[(1030u * 5 + 4) * 1023 + 1022] = std::nanf("");
+  EXPECT_THAT(error_of([&] { load(write_vol(n, 1, values)); }), HasSubstr("voxel (1022, 4, 1030)"));
+}
+
+TEST_F(VolFileLaw, WhatFollowsTheVoxelsIsMentioned) {
+  load(write_bytes("long.vol", read_bytes(write_numbered()) + "more"));
+  EXPECT_THAT(test::in_words(notices_),
+              ElementsAre(HasSubstr("has 148 bytes, of which its header makes 144")));
 }
 
 TEST_F(VolFileLaw, HalfFloatsAndBytesAreRead) {
-  const std::uint16_t half_of_1_5 = 0x3e00;
-  EXPECT_EQ(voxel(*load(write_vol({1, 1, 1}, 1, std::vector{half_of_1_5}, 2)), 0, 0, 0), 1.5f);
-  EXPECT_EQ(voxel(*load(write_vol({1, 1, 1}, 1, std::vector{std::uint8_t(51)}, 3)), 0, 0, 0), 0.2f);
+  const std::uint16_t half_of_1_5 = 0x3e00, zero = 0;
+  const auto half = load(write_vol({3, 1, 1}, 1, std::vector{half_of_1_5, zero, half_of_1_5}, 2));
+  EXPECT_EQ(voxel(*half, 0, 0, 0), 1.5f);
+  EXPECT_EQ(voxel(*half, 1, 0, 0), 0.0f);
+  EXPECT_EQ(voxel(*half, 2, 0, 0), 1.5f);
+  const auto byte = load(write_vol({3, 1, 1}, 1, std::vector<std::uint8_t>{51, 0, 255}, 3));
+  EXPECT_EQ(voxel(*byte, 0, 0, 0), 0.2f);
+  EXPECT_EQ(voxel(*byte, 1, 0, 0), 0.0f);
+  EXPECT_EQ(voxel(*byte, 2, 0, 0), 1.0f);
 }
 
 TEST_F(VolFileLaw, NegativeVoxelsAreCountedOnce) {
   const auto grid = load(write_vol({1, 1, 2}, 1, std::vector{-1.0f, 2.0f}));
-  EXPECT_THAT(notices_, ElementsAre(HasSubstr("1 negative voxel was set to 0")));
+  EXPECT_THAT(test::in_words(notices_), ElementsAre(HasSubstr("1 negative voxel was set to 0")));
   EXPECT_EQ(voxel(*grid, 0, 0, -1), 0.0f);
 }
 
@@ -114,7 +136,7 @@ TEST_F(VolFileLaw, NaNIsLocated) {
 
 TEST_F(VolFileLaw, ZeroVoxelsAreVacuum) {
   load(write_vol({2, 1, 1}, 1, std::vector{0.0f, 0.0f}));
-  EXPECT_THAT(notices_, ElementsAre(HasSubstr("vacuum")));
+  EXPECT_THAT(test::in_words(notices_), ElementsAre(HasSubstr("vacuum")));
 }
 
 TEST_F(VolFileLaw, BadHeadersSayWhatIsWrong) {
