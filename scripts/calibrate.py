@@ -22,7 +22,7 @@ SCENES = {  # name: size; small, because what is tested does not depend on it
     "smoke_plume_coloured_albedo": "24x18",
     "small_bright_cloud": "24x18",
     "cornell_box_spheres_area_lights_fog": "12x9",
-    "fog_filled_world": "12x9",
+    "cornell_box_spheres_god_rays": "12x9",
     "vdb_cloud_sun_sky": "12x9",
 }
 REFERENCE_PART = 0.35  # the reference's error, of the least target

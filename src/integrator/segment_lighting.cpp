@@ -6,32 +6,40 @@
 namespace brume {
 namespace {
 
-/// The segment as a light sees it: angles around the pivot, in the plane of pivot and ray.
-struct Angles {
-  double t_closest;         // of the pivot's foot on the ray [unit]
-  double height;            // of the pivot above the ray, at least about the light's size [unit]
-  double theta_0, theta_1;  // of the ends of the segment [rad]
+/// Where a light stands beside the segment.
+struct Foot {
+  double t;       // of the pivot's foot on the ray [unit]
+  double height;  // of the pivot above the ray, at least about the light's size [unit]
 
-  Angles(const Light::Pivot& pivot, const Segment& segment) {
+  Foot(const Light::Pivot& pivot, const Segment& segment) {
     const glm::dvec3 to_pivot = glm::dvec3(pivot.center) - glm::dvec3(segment.ray.o);
     const glm::dvec3 d(segment.ray.d);
-    t_closest = glm::dot(to_pivot, d);
+    t = glm::dot(to_pivot, d);
     // Closer than its size a light no longer grows as the inverse square.
-    height = std::max({glm::length(to_pivot - t_closest * d), 0.5 * double(pivot.radius),
-                       1e-6 * glm::length(to_pivot)});
-    theta_0 = std::atan2(-t_closest, height);
-    theta_1 =
-        std::isfinite(segment.t_end) ? std::atan2(segment.t_end - t_closest, height) : 0.5 * M_PI;
+    height = std::max(
+        {glm::length(to_pivot - t * d), 0.5 * double(pivot.radius), 1e-6 * glm::length(to_pivot)});
   }
+};
 
-  bool degenerate() const { return !(height > 0.0) || !(theta_1 > theta_0); }
+/// Points of the segment, dense where it is near to a light: uniform in the angle at the pivot, in
+/// the plane of pivot and ray.
+struct EquiangularPoints {
+  Foot foot;
+  double angle;  // that the segment spans [rad], positive however short the segment is
+
+  EquiangularPoints(const Light::Pivot& pivot, const Segment& segment) : foot(pivot, segment) {
+    const double h = foot.height;
+    angle = std::isfinite(segment.t_end)
+                ? std::atan2(h * segment.t_end, h * h + foot.t * (foot.t - segment.t_end))
+                : 0.5 * M_PI + std::atan2(foot.t, h);
+  }
 
   double t(double u) const {
-    return t_closest + height * std::tan(theta_0 + u * (theta_1 - theta_0));
+    return foot.t + foot.height * std::tan(std::atan2(-foot.t, foot.height) + u * angle);
   }
   double pdf(double at_t) const {
-    const double along = at_t - t_closest;
-    return height / ((theta_1 - theta_0) * (height * height + along * along));
+    const double along = at_t - foot.t;
+    return foot.height / (angle * (foot.height * foot.height + along * along));
   }
 };
 
@@ -48,9 +56,9 @@ SegmentLighting::SegmentLighting(const LightSet& lights, const Segment& segment)
 }
 
 float SegmentLighting::weight(std::size_t light) const {
-  const Angles angles(*lights_.light(light).pivot(), segment_);
-  if (angles.degenerate()) return 0.0f;
-  const float t = float(std::clamp(angles.t_closest, 0.0, double(segment_.t_end)));
+  const Foot foot(*lights_.light(light).pivot(), segment_);
+  if (!(foot.height > 0.0)) return 0.0f;
+  const float t = float(std::clamp(foot.t, 0.0, double(segment_.t_end)));
   const auto here = segment_.medium->scattering_at(segment_.ray, 0.0f, segment_.beta);
   const auto there = segment_.medium->scattering_at(segment_.ray, t, segment_.beta);
   if (!here || is_black(here->value) || here->phase.is_delta()) return 0.0f;
@@ -72,14 +80,15 @@ SegmentLighting::Point SegmentLighting::sample(float u_choice, float u) const {
     remaining -= p;
     if (remaining < 0.0f) break;
   }
-  const Angles angles(*lights_.light(chosen).pivot(), segment_);
-  const float t = std::clamp(float(angles.t(u)), 0.0f, segment_.t_end);
-  return {.light = chosen, .t = t, .pdf = p_chosen * float(angles.pdf(t))};
+  const EquiangularPoints points(*lights_.light(chosen).pivot(), segment_);
+  const float t = std::clamp(float(points.t(u)), 0.0f, segment_.t_end);
+  return {.light = chosen, .t = t, .pdf = p_chosen * float(points.pdf(t))};
 }
 
 float SegmentLighting::pdf(std::size_t light, float t) const {
   const float p = weight(light) / total_weight_;
-  return p > 0.0f ? p * float(Angles(*lights_.light(light).pivot(), segment_).pdf(t)) : 0.0f;
+  return p > 0.0f ? p * float(EquiangularPoints(*lights_.light(light).pivot(), segment_).pdf(t))
+                  : 0.0f;
 }
 
 float SegmentLighting::choice(std::size_t light, float t, float p_choice) const {
