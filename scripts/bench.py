@@ -16,12 +16,10 @@ import math
 import os
 import pathlib
 import platform
-import struct
 import subprocess
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
-SAMPLES = ROOT / "../shared/media-samples/vdb"
+from measure import ROOT, SAMPLES, bars, run, volume_noise
 
 HAZE = """<scene version="3.0.0">
   <integrator type="volpath"/>
@@ -46,26 +44,6 @@ CONSTANT = """<scene version="3.0.0">
     <rgb name="irradiance" value="3, 3, 3"/></emitter>
   <emitter type="constant"><rgb name="radiance" value="0.3, 0.4, 0.6"/></emitter>
 </scene>"""
-
-
-def volume_noise(path, n):
-    """A .vol file of n^3 voxels: a ball of sines of mixed frequencies, cut off below zero."""
-    axis = [2.0 * (i + 0.5) / n - 1.0 for i in range(n)]
-    waves = [[sum(math.sin(f * k * x + s) / k for k in (3, 7, 17, 41)) for x in axis]
-             for f, s in ((1.0, 0.3), (1.1, 1.7), (0.9, 4.1))]
-    with open(path, "wb") as file:
-        file.write(b"VOL" + struct.pack("<B5i6f", 3, 1, n, n, n, 1, -1, -1, -1, 1, 1, 1))
-        row = struct.Struct(f"<{n}f")
-        wx, ball_x = waves[0], [x * x for x in axis]
-        for z in range(n):
-            for y in range(n):
-                wyz = waves[1][y] * waves[2][z]
-                edge = 1.0 - axis[y] ** 2 - axis[z] ** 2
-                if edge <= 0.0:
-                    file.write(bytes(4 * n))
-                    continue
-                file.write(row.pack(*[max(0.0, 2.0 * (edge - b) + 0.8 * w * wyz) if b < edge
-                                      else 0.0 for b, w in zip(ball_x, wx)]))
 
 
 def scenes(folder, procedural_size):
@@ -94,20 +72,6 @@ def scenes(folder, procedural_size):
         else:
             print(f"skipped: {name} ({SAMPLES / file} is not there)")
     return found
-
-
-def run(brume, arguments, folder, spp, seed, settings=()):
-    """User seconds, statistics and peak memory [MB] of one render."""
-    command = [brume, "render", *map(str, arguments), "--spp", str(spp), "--seed", str(seed),
-               "--quiet", "-o", str(folder / "picture.exr"), "--json", str(folder / "picture.json")]
-    for setting in settings:
-        command += ["--set", setting]
-    process = subprocess.Popen(command, stderr=subprocess.DEVNULL)
-    _, status, usage = os.wait4(process.pid, 0)
-    if status != 0:
-        raise SystemExit(f"failed: {' '.join(command)}")
-    statistics = json.loads((folder / "picture.json").read_text())
-    return usage.ru_utime, statistics, usage.ru_maxrss / 1024.0
 
 
 class Cost:
@@ -157,25 +121,6 @@ def check_error(brume, arguments, folder, spp):
     return comparison["rmse"] / mean / expected
 
 
-def chart(rows):
-    """Bars of the ratio to the textbook on a logarithmic axis, as SVG."""
-    height, left, unit = 26, 190, 130
-    top = max(2.0, max(ratio for _, ratio in rows))
-    width = left + unit * (math.log10(top) + 0.3) + 90
-    parts = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:.0f}" '
-             f'height="{height * len(rows) + 40}" font-family="sans-serif" font-size="13">',
-             f'<text x="{left}" y="16">efficiency over the textbook\'s</text>']
-    for i, (name, ratio) in enumerate(rows):
-        y = 28 + height * i
-        bar = max(unit * (math.log10(max(ratio, 0.5)) + 0.3), 1.0)
-        parts.append(f'<text x="{left - 8}" y="{y + 14}" text-anchor="end">{name}</text>'
-                     f'<rect x="{left}" y="{y}" width="{bar:.1f}" height="18" fill="#4477aa"/>'
-                     f'<text x="{left + bar + 6:.1f}" y="{y + 14}">{ratio:.1f}</text>')
-    x = left + 0.3 * unit
-    parts.append(f'<line x1="{x}" y1="22" x2="{x}" y2="{28 + height * len(rows)}" stroke="#888"/>')
-    return "\n".join([*parts, "</svg>", ""])
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("--brume", default=str(ROOT / "build/release/bin/brume"))
@@ -211,7 +156,8 @@ def main():
     print(f"{platform.machine()}, {os.cpu_count()} processors")
     if options.out:
         pathlib.Path(options.out + ".md").write_text("\n".join(lines) + "\n")
-        pathlib.Path(options.out + ".svg").write_text(chart(rows))
+        pathlib.Path(options.out + ".svg").write_text(
+            bars("efficiency over the textbook's", rows))
 
 
 if __name__ == "__main__":

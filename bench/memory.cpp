@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+// How much of tracking is waiting for memory that any renderer would have to wait for: flights
+// through a cloud larger than the caches, against a loop that only reads the same cells and voxels
+// in the same order.
+#include <benchmark/benchmark.h>
+#include <nanovdb/util/GridBuilder.h>
+
+#include <cmath>
+
+#include "core/warp.h"
+#include "medium/heterogeneous_medium.h"
+#include "volume/bounds_grid.h"
+#include "volume/voxel_blocks.h"
+
+namespace brume {
+namespace {
+
+constexpr int kVoxels = 512;       // along each side
+constexpr float kExtinction = 60;  // per density and side of the cube; 160 through the middle
+constexpr std::size_t kFlights = 1 << 17;
+constexpr int kFlightsOfPath = 64;  // at most
+
+/// Sines of mixed frequencies, the cloud of scripts/measure.py.
+std::array<float, kVoxels> waves(double stretch, double shift) {
+  std::array<float, kVoxels> result{};
+  for (int i = 0; i < kVoxels; ++i)
+    for (const double k : {3.0, 7.0, 17.0, 41.0})
+      result[i] += float(std::sin(stretch * k * (2.0 * (i + 0.5) / kVoxels - 1.0) + shift) / k);
+  return result;
+}
+
+/// A ball in the unit cube, 0 outside.
+std::shared_ptr<const Grid<float>> cloud() {
+  static const auto grid = [] {
+    const auto x_waves = waves(1.0, 0.3), y_waves = waves(1.1, 1.7), z_waves = waves(0.9, 4.1);
+    nanovdb::GridBuilder<float> builder(0.0f);
+    auto accessor = builder.getAccessor();
+    for (int x = 0; x < kVoxels; ++x)
+      for (int y = 0; y < kVoxels; ++y)
+        for (int z = 0; z < kVoxels; ++z) {
+          const Vec3 p = (Vec3(x, y, z) + 0.5f) * (2.0f / kVoxels) - 1.0f;
+          const float value =
+              2.0f * (1.0f - length_squared(p)) + 0.8f * x_waves[x] * y_waves[y] * z_waves[z];
+          if (length_squared(p) < 1.0f && value > 0.0f)
+            accessor.setValue(nanovdb::Coord(x, y, z), value);
+        }
+    glm::dmat4 world_from_index(1.0 / kVoxels);
+    world_from_index[3] = glm::dvec4(0.5 / kVoxels, 0.5 / kVoxels, 0.5 / kVoxels, 1.0);
+    return std::make_shared<const Grid<float>>(builder.getHandle<>(), world_from_index,
+                                               Box3{Vec3(-0.5f), Vec3(float(kVoxels) - 0.5f)},
+                                               Interpolation::kTrilinear, Wrap::kBackground);
+  }();
+  return grid;
+}
+
+/// What flights read, in order: the bounds of cells, and voxels.
+struct Reads {
+  std::vector<Ray> rays;  // one a flight
+  std::vector<glm::ivec3> places;
+  std::vector<char> is_voxel;  // or a cell
+  std::size_t cells = 0, voxels = 0;
+};
+
+/// Paths that scatter forward through the cloud until they leave it. The tracking is that of
+/// HeterogeneousMedium, without what flights return.
+Reads follow_paths(const BoundsGrid& bounds, const VoxelBlocks<float>& voxels) {
+  Reads reads;
+  Rng rng(8);
+  const HenyeyGreenstein phase{0.8f};
+  while (reads.rays.size() < kFlights) {
+    const Vec3 d = sample_uniform_sphere(rng.next_vec2());
+    Ray ray{.o = Vec3(0.5f) - 0.5f * d, .d = phase.sample(d, rng.next_vec2()).d};
+    for (int flight = 0; flight < kFlightsOfPath; ++flight) {
+      const auto segment = clip_to_grid(ray, kInfinity, bounds, cloud()->index_from_world());
+      if (!segment) break;
+      reads.rays.push_back(ray);
+      float tau = -std::log(1.0f - rng.next_float());
+      float t_scattered = kInfinity;
+      walk_cells(bounds, *segment, [&](const glm::ivec3& cell, float t, float t1) {
+        const ValueRange& range = bounds.range(cell);
+        reads.places.push_back(cell);
+        reads.is_voxel.push_back(false);
+        const float sigma_maj = kExtinction * range.max;
+        while (tau < sigma_maj * (t1 - t)) {
+          t += tau / sigma_maj;
+          tau = -std::log(1.0f - rng.next_float());
+          const float u = rng.next_float() * range.max;
+          if (u < range.min) {
+            t_scattered = t;
+            return false;
+          }
+          const glm::ivec3 i(glm::floor(segment->o + t * segment->d + rng.next_float()));
+          reads.places.push_back(i);
+          reads.is_voxel.push_back(true);
+          if (u < voxels(i)) {
+            t_scattered = t;
+            return false;
+          }
+        }
+        tau -= sigma_maj * (t1 - t);
+        return true;
+      });
+      if (!(t_scattered < kInfinity)) break;
+      ray.o = ray.at(segment->t_start + t_scattered);
+      ray.d = phase.sample(ray.d, rng.next_vec2()).d;
+    }
+  }
+  for (const char v : reads.is_voxel) ++(v ? reads.voxels : reads.cells);
+  return reads;
+}
+
+struct Recorded {
+  BoundsGrid bounds{*cloud()};
+  VoxelBlocks<float> voxels{*cloud()};
+  Reads reads = follow_paths(bounds, voxels);
+};
+
+const Recorded& recorded() {
+  static const Recorded paths;
+  return paths;
+}
+
+void count(benchmark::State& state) {
+  const Reads& reads = recorded().reads;
+  const double flights = double(reads.rays.size());
+  state.SetItemsProcessed(std::int64_t(flights) * state.iterations());
+  state.counters["ns_per_flight"] = benchmark::Counter(
+      flights * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["cells"] = double(reads.cells) / flights;
+  state.counters["voxels"] = double(reads.voxels) / flights;
+}
+
+/// The flights themselves.
+void flights(benchmark::State& state) {
+  const auto cloudy = make_heterogeneous_medium(
+      cloud(), kExtinction, std::make_shared<ConstantField>(Rgb(0.995f)), {0.8f});
+  const Reads& reads = recorded().reads;
+  std::uint32_t sample = 0;
+  for (auto _ : state)
+    for (const Ray& ray : reads.rays) {
+      Sampler sampler(5, 0, sample++, false);
+      benchmark::DoNotOptimize(cloudy->sample_free_flight(ray, kInfinity, Rgb(1.0f), sampler));
+    }
+  count(state);
+}
+BENCHMARK(flights)->Unit(benchmark::kMillisecond);
+
+/// Only what they read. With `wait`, no read begins before the one before it is done, as in
+/// tracking, where each decides what comes next.
+void reads_alone(benchmark::State& state) {
+  const auto& [bounds, voxels, reads] = recorded();
+  const bool wait = state.range(0) != 0;
+  for (auto _ : state) {
+    float sum = 0.0f;
+    int hold = 0;  // always 0, which the processor learns only from the value read
+    for (std::size_t i = 0; i < reads.places.size(); ++i) {
+      const glm::ivec3 place = reads.places[i] + hold;
+      const float value = reads.is_voxel[i] ? voxels(place) : bounds.range(place).max;
+      if (wait) hold = int(value * 1e-9f);
+      sum += value;
+    }
+    benchmark::DoNotOptimize(sum);
+  }
+  count(state);
+}
+BENCHMARK(reads_alone)->ArgName("wait")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+
+/// The same loop over their list without following it.
+void no_reads(benchmark::State& state) {
+  const Reads& reads = recorded().reads;
+  for (auto _ : state) {
+    int sum = 0;
+    for (std::size_t i = 0; i < reads.places.size(); ++i)
+      sum += reads.is_voxel[i] ? reads.places[i].x : reads.places[i].y;
+    benchmark::DoNotOptimize(sum);
+  }
+  count(state);
+}
+BENCHMARK(no_reads)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace brume
