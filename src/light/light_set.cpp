@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <numeric>
 #include <utility>
 
 namespace brume {
@@ -27,6 +28,16 @@ LightSet::LightSet(std::vector<std::shared_ptr<const Light>> lights,
                              : environments_[i - lights_.size()]->importance(Vec3(0.0f));
     importance_without_pivot_ += far_importance_[i];
   }
+  for (std::size_t i = 0; i < size(); ++i)
+    if (i < lights_.size() || far_importance_[i] > 0.0f) choices_.push_back(i);
+  if (choices_.empty()) {
+    choices_.resize(size());
+    std::iota(choices_.begin(), choices_.end(), std::size_t(0));
+  }
+}
+
+bool LightSet::may_choose(std::size_t index) const {
+  return std::binary_search(choices_.begin(), choices_.end(), index);
 }
 
 float LightSet::importance(const Vec3& p, std::size_t index) const {
@@ -42,29 +53,32 @@ float LightSet::total_importance(const Vec3& p) const {
 }
 
 float LightSet::probability(float importance, float total) const {
-  const float uniform = 1.0f / float(size());
+  const float uniform = 1.0f / float(choices_.size());
   return total > 0.0f ? kUniformPart * uniform + (1.0f - kUniformPart) * (importance / total)
                       : uniform;
 }
 
 float LightSet::probability(const Vec3& p, std::size_t index) const {
   assert(index < size());
-  if (size() == 1) return 1.0f;
+  if (!may_choose(index)) return 0.0f;
+  if (choices_.size() == 1) return 1.0f;
   return probability(importance(p, index), total_importance(p));
 }
 
 std::optional<LightSet::Arrival> LightSet::sample(const Vec3& p, float u_choice,
                                                   const Vec2& u) const {
-  if (size() == 0) return std::nullopt;
-  std::size_t chosen = 0;
+  if (choices_.empty()) return std::nullopt;
+  std::size_t chosen = choices_.front();
   float p_chosen = 1.0f;
   float total = 0.0f;
-  if (size() > 1) {
+  if (choices_.size() > 1) {
     total = total_importance(p);
-    for (float remaining = u_choice;; ++chosen) {
-      p_chosen = probability(importance(p, chosen), total);
+    float remaining = u_choice;
+    for (const std::size_t i : choices_) {
+      chosen = i;
+      p_chosen = probability(importance(p, i), total);
       remaining -= p_chosen;
-      if (remaining < 0.0f || chosen + 1 == size()) break;
+      if (remaining < 0.0f) break;
     }
   }
 
@@ -90,7 +104,7 @@ std::optional<LightSet::Arrival> LightSet::sample(const Vec3& p, float u_choice,
     if (index == chosen) continue;
     const EnvironmentLight::View other = environments_[i]->view(s->d);
     L += other.L;
-    pdf += probability(far_importance_[index], total) * other.pdf;
+    if (may_choose(index)) pdf += probability(far_importance_[index], total) * other.pdf;
   }
   s->weight = L / pdf;
   s->pdf = pdf;
@@ -104,12 +118,13 @@ Rgb LightSet::environment_radiance(const Vec3& d) const {
 }
 
 EnvironmentLight::View LightSet::environment_view(const Vec3& from, const Vec3& d) const {
-  const float total = size() > 1 ? total_importance(from) : 0.0f;
+  const float total = choices_.size() > 1 ? total_importance(from) : 0.0f;
   EnvironmentLight::View sum{.L = Rgb{0.0f}, .pdf = 0.0f};
   for (std::size_t i = 0; i < environments_.size(); ++i) {
     const EnvironmentLight::View view = environments_[i]->view(d);
     sum.L += view.L;
-    sum.pdf += probability(far_importance_[lights_.size() + i], total) * view.pdf;
+    const std::size_t index = lights_.size() + i;
+    if (may_choose(index)) sum.pdf += probability(far_importance_[index], total) * view.pdf;
   }
   return sum;
 }

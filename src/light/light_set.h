@@ -13,7 +13,8 @@ namespace brume {
 /// All lights of a scene, and the choice among them.
 ///
 /// Lights are chosen mostly by `Light::importance`, and with some probability uniformly, because
-/// what stands in between is not known.
+/// what stands in between is not known. An environment whose importance is 0 is left to the paths
+/// that leave the scene, unless there is nothing else to choose.
 ///
 /// Environments overlap: the sun's disk stands before the sky. They are treated as one technique
 /// that draws from the mixture of their densities and sees the sum of their radiances, so a
@@ -56,12 +57,14 @@ class LightSet {
   float importance_without_pivot() const { return importance_without_pivot_; }
 
  private:
+  bool may_choose(std::size_t index) const;
   float importance(const Vec3& p, std::size_t index) const;
   float total_importance(const Vec3& p) const;
   float probability(float importance, float total) const;
 
   std::vector<std::shared_ptr<const Light>> lights_;
   std::vector<std::shared_ptr<const EnvironmentLight>> environments_;
+  std::vector<std::size_t> choices_;     // the lights that `sample` may choose
   std::vector<std::size_t> with_pivot_;  // indices in lights_
   std::vector<float> far_importance_;    // [light] of those without a pivot, 0 for the others
   float importance_without_pivot_ = 0.0f;

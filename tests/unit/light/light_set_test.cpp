@@ -126,12 +126,18 @@ TEST(LightSet, ChoosesWhatIsImportantMostOftenAndNothingNever) {
   EXPECT_TRUE(std::isfinite(lights.probability({0, 1, 0}, 0)));  // on the light itself
 }
 
-TEST(LightSet, SeldomLooksForWhatPathsFindThatLeaveTheScene) {
+TEST(LightSet, LeavesAnEvenEnvironmentToPathsThatLeaveTheScene) {
   const auto even = std::make_shared<ConstantEnvironment>(Rgb(3.0f));
   const LightSet with_lamp({std::make_shared<PointLight>(Vec3(0, 2, 0), Rgb(0.1f))}, {even});
-  EXPECT_NEAR(with_lamp.probability(Vec3(0.0f), 0), 0.9, 1e-6);
-  EXPECT_NEAR(with_lamp.probability(Vec3(0.0f), 1), 0.1, 1e-6);
-  EXPECT_EQ(LightSet({}, {even}).probability(Vec3(0.0f), 0), 1.0f);
+  EXPECT_EQ(with_lamp.probability(Vec3(0.0f), 0), 1.0f);
+  EXPECT_EQ(with_lamp.probability(Vec3(0.0f), 1), 0.0f);
+  EXPECT_EQ(with_lamp.sample(Vec3(0.0f), 0.999f, Vec2(0.5f))->index, 0u);
+  EXPECT_EQ(with_lamp.environment_view(Vec3(0.0f), {0, 1, 0}).L, Rgb(3.0f));
+  EXPECT_EQ(with_lamp.environment_view(Vec3(0.0f), {0, 1, 0}).pdf, 0.0f);
+
+  const LightSet alone({}, {even});
+  EXPECT_EQ(alone.probability(Vec3(0.0f), 0), 1.0f);
+  EXPECT_TRUE(alone.sample(Vec3(0.0f), 0.5f, Vec2(0.5f)));
 }
 
 TEST(LightSet, WithoutLightsIsDark) {
