@@ -8,6 +8,8 @@
 #include <cstring>
 #include <new>
 
+#include "core/huge_pages.h"
+
 namespace brume {
 namespace {
 
@@ -46,6 +48,7 @@ class NanoWriter {
     auto buffer = nanovdb::HostBuffer::create(size);
     std::uint8_t* data = buffer.data();
     if (data == nullptr) throw std::bad_alloc();
+    prefer_huge_pages(data, size);
     std::memset(data, 0, upper_at);
     upper_ = reinterpret_cast<Upper*>(data + upper_at);
     lower_ = reinterpret_cast<Lower*>(data + lower_at);

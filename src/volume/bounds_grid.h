@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
-#include <vector>
 
+#include "core/huge_pages.h"
 #include "core/ray.h"
 #include "volume/grid.h"
 
@@ -49,7 +49,7 @@ class BoundsGrid {
   Box3 box_;         // [voxels]
   float cell_size_;  // [voxels]
   glm::ivec3 resolution_;
-  std::vector<ValueRange> ranges_;  // [z][y][x], x fastest
+  HugePageVector<ValueRange> ranges_;  // [z][y][x], x fastest
   ValueRange total_;
 };
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/huge_pages.h"
 #include "volume/grid.h"
 
 namespace brume {
@@ -54,9 +55,9 @@ class VoxelBlocks {
   static constexpr double kMaxBlocks = 1 << 24;
 
   const typename Grid<Value>::NanoGrid::TreeType* tree_;
-  glm::ivec3 first_;                     // [block] of the table
-  glm::ivec3 resolution_;                // [block]
-  std::vector<const NanoValue*> table_;  // [z][y][x], x fastest
+  glm::ivec3 first_;                        // [block] of the table
+  glm::ivec3 resolution_;                   // [block]
+  HugePageVector<const NanoValue*> table_;  // [z][y][x], x fastest
   std::vector<std::unique_ptr<const ConstantBlock>> constant_;
 };
 
