@@ -15,7 +15,7 @@ struct VolHeader {
   glm::ivec3 resolution{0};
   int channels = 1;                       // 1 or 3
   glm::dvec3 box_min{0.0}, box_max{1.0};  // as in the file
-  std::string value_type;                 // in words: "float", "half float", "uint8"
+  std::string value_type{};               // in words: "float", "half float", "uint8"
   std::uint64_t bytes = 0;                // of the file, as far as the header speaks of it
 };
 

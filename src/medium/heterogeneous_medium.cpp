@@ -92,7 +92,8 @@ float cell_size(const Grid<Value>& grid, const TrackingSettings& settings) {
 /// Distance [unit] below which points of the segment cannot be told apart. A step that is shorter,
 /// in a medium thick beyond measure, would never leave its place.
 float rounding_of_points(const IndexSegment& segment) {
-  return 0x1p-24f * max_component(glm::abs(segment.o)) / max_component(glm::abs(segment.d));
+  return 0x1p-23f *
+         (max_component(glm::abs(segment.o)) / max_component(glm::abs(segment.d)) + segment.t_end);
 }
 
 float largest(float v) {

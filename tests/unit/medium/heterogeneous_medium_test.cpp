@@ -124,6 +124,19 @@ TEST(HeterogeneousMedium, EmptyPlacesBesideOnesThickBeyondMeasureArePassed) {
   }
 }
 
+TEST(HeterogeneousMedium, FlightsFromTheOriginOfTheGridGetOnWhereItIsThickBeyondMeasure) {
+  // Near the origin points are finer than the rounding of the way that was come.
+  const auto grid = test::make_grid(
+      {9, 9, 9}, [](int x, int y, int z) { return x == 4 && y == 4 && z == 4 ? 1.0f : 0.0f; });
+  const auto medium =
+      make_heterogeneous_medium(grid, 1e30f, std::make_shared<ConstantField>(Rgb(1.0f)), {});
+  const Ray ray{Vec3(0.0f), glm::normalize(Vec3(1.0f))};
+  Rng rng(1);
+  Sampler sampler(19, 0, 0, true);
+  EXPECT_EQ(medium->transmittance(ray, kInfinity, rng).r, 0.0f);
+  EXPECT_TRUE(medium->sample_free_flight(ray, kInfinity, Rgb(1.0f), sampler).scattered);
+}
+
 TEST(HeterogeneousMedium, EverySettingHasTheSameExpectation) {
   using Bounds = TrackingSettings::Bounds;
   using Lookup = TrackingSettings::Lookup;
