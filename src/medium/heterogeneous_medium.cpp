@@ -89,12 +89,18 @@ float cell_size(const Grid<Value>& grid, const TrackingSettings& settings) {
   return std::ceil(max_component(grid.box().size()));
 }
 
-/// Distance [unit] below which points of the segment cannot be told apart. A step that is shorter,
-/// in a medium thick beyond measure, would never leave its place.
-float rounding_of_points(const IndexSegment& segment) {
-  return 0x1p-23f *
-         (max_component(glm::abs(segment.o)) / max_component(glm::abs(segment.d)) + segment.t_end);
-}
+/// The least step [unit] from `t` along the segment that makes way. A shorter one, in a medium
+/// thick beyond measure, would never leave its place: neither points nor `t` can tell it.
+class LeastStep {
+ public:
+  explicit LeastStep(const IndexSegment& segment)
+      : of_points_(0x1p-24f * max_component(glm::abs(segment.o)) /
+                   max_component(glm::abs(segment.d))) {}
+  float operator()(float t) const { return std::max(of_points_, 0x1p-23f * t); }
+
+ private:
+  float of_points_;  // [unit]
+};
 
 float largest(float v) {
   return v;
@@ -150,7 +156,7 @@ class HeterogeneousMedium final : public Medium {
     Rng& rng = sampler.rng();
     GridLookup<Stored> lookup(*density_);
     float tau = sample_optical_thickness(sampler.next_1d());
-    const float least_step = rounding_of_points(*segment);
+    const LeastStep least_step(*segment);
     walk(*segment, [&](const Box3& box, const ValueRange& range, float t, float t1) {
       const float sigma_maj = range.max * density_scale_;
       if (!(sigma_maj > 0.0f)) return true;
@@ -161,7 +167,7 @@ class HeterogeneousMedium final : public Medium {
           tau -= tau_to_end;
           return true;
         }
-        t = std::min(t + std::max(tau / sigma_maj, least_step), t1);
+        t = std::min(t + std::max(tau / sigma_maj, least_step(t)), t1);
         tau = sample_optical_thickness(rng.next_float());
         const auto sigma_t = [&] { return extinction(lookup, box, *segment, t, sigma_maj, rng); };
         if (is_real(sigma_maj, sigma_c, beta, flight.weight, rng, sigma_t)) {
@@ -186,7 +192,7 @@ class HeterogeneousMedium final : public Medium {
 
     GridLookup<Stored> lookup(*density_);
     float tau = sample_optical_thickness(rng.next_float());
-    const float least_step = rounding_of_points(*segment);
+    const LeastStep least_step(*segment);
     walk(*segment, [&](const Box3& box, const ValueRange& range, float t, float t1) {
       if (!(range.max > 0.0f)) return true;
       // The control has a closed form; only what is above it is tracked, by ratio tracking.
@@ -200,7 +206,7 @@ class HeterogeneousMedium final : public Medium {
           tau -= tau_to_end;
           return true;
         }
-        t = std::min(t + std::max(tau / residual, least_step), t1);
+        t = std::min(t + std::max(tau / residual, least_step(t)), t1);
         tau = sample_optical_thickness(rng.next_float());
         const Value sigma_t = extinction(lookup, box, *segment, t, sigma_maj, rng);
         T *= glm::max((sigma_maj - sigma_t) / residual, Value(0.0f));
