@@ -145,7 +145,7 @@ TEST_F(RenderCommand, QuietWarns) {
 
 TEST_F(RenderCommand, ProgressIsPlainLinesInAFileAndABarOnATerminal) {
   const Ended in_file = run({"render", "scene.xml"});
-  EXPECT_THAT(in_file.err, MatchesRegex("100%  4/4 spp  0:00 left .*samples/s\n"));
+  EXPECT_THAT(in_file.err, MatchesRegex(".*100%  4/4 spp  0:00 left .*samples/s\n"));
   EXPECT_THAT(in_file.err, Not(HasSubstr("\r")));
   EXPECT_THAT(in_file.err, Not(HasSubstr("\x1b")));
 
