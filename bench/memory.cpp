@@ -3,12 +3,12 @@
 // through a cloud larger than the caches, against a loop that only reads the same cells and voxels
 // in the same order.
 #include <benchmark/benchmark.h>
-#include <nanovdb/util/GridBuilder.h>
 
 #include <cmath>
 
 #include "core/warp.h"
 #include "medium/heterogeneous_medium.h"
+#include "unit_cube_grid.h"
 #include "volume/bounds_grid.h"
 #include "volume/voxel_blocks.h"
 
@@ -33,22 +33,11 @@ std::array<float, kVoxels> waves(double stretch, double shift) {
 std::shared_ptr<const Grid<float>> cloud() {
   static const auto grid = [] {
     const auto x_waves = waves(1.0, 0.3), y_waves = waves(1.1, 1.7), z_waves = waves(0.9, 4.1);
-    nanovdb::GridBuilder<float> builder(0.0f);
-    auto accessor = builder.getAccessor();
-    for (int x = 0; x < kVoxels; ++x)
-      for (int y = 0; y < kVoxels; ++y)
-        for (int z = 0; z < kVoxels; ++z) {
-          const Vec3 p = (Vec3(x, y, z) + 0.5f) * (2.0f / kVoxels) - 1.0f;
-          const float value =
-              2.0f * (1.0f - length_squared(p)) + 0.8f * x_waves[x] * y_waves[y] * z_waves[z];
-          if (length_squared(p) < 1.0f && value > 0.0f)
-            accessor.setValue(nanovdb::Coord(x, y, z), value);
-        }
-    glm::dmat4 world_from_index(1.0 / kVoxels);
-    world_from_index[3] = glm::dvec4(0.5 / kVoxels, 0.5 / kVoxels, 0.5 / kVoxels, 1.0);
-    return std::make_shared<const Grid<float>>(builder.getHandle<>(), world_from_index,
-                                               Box3{Vec3(-0.5f), Vec3(float(kVoxels) - 0.5f)},
-                                               Interpolation::kTrilinear, Wrap::kBackground);
+    return unit_cube_grid(kVoxels, [&](const glm::ivec3& v) {
+      const float inside = 1.0f - length_squared((Vec3(v) + 0.5f) * (2.0f / kVoxels) - 1.0f);
+      const float wave = x_waves[v.x] * y_waves[v.y] * z_waves[v.z];
+      return inside > 0.0f ? 2.0f * inside + 0.8f * wave : 0.0f;
+    });
   }();
   return grid;
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <benchmark/benchmark.h>
-#include <nanovdb/util/GridBuilder.h>
 
 #include <cmath>
 
 #include "core/warp.h"
 #include "medium/heterogeneous_medium.h"
+#include "unit_cube_grid.h"
 #include "volume/bounds_grid.h"
 #include "volume/voxel_blocks.h"
 
@@ -16,24 +16,12 @@ constexpr int kVoxels = 128;  // along each side
 
 /// A ball of waves in the unit cube, 0 outside.
 std::shared_ptr<const Grid<float>> cloud() {
-  static const auto grid = [] {
-    nanovdb::GridBuilder<float> builder(0.0f);
-    auto accessor = builder.getAccessor();
-    for (int z = 0; z < kVoxels; ++z)
-      for (int y = 0; y < kVoxels; ++y)
-        for (int x = 0; x < kVoxels; ++x) {
-          const Vec3 p = (Vec3(x, y, z) + 0.5f) * (2.0f / kVoxels) - 1.0f;
-          const float value =
-              1.0f - length_squared(p) +
-              0.4f * std::sin(9.0f * p.x) * std::sin(11.0f * p.y) * std::sin(10.0f * p.z);
-          if (value > 0.3f) accessor.setValue(nanovdb::Coord(x, y, z), value);
-        }
-    glm::dmat4 world_from_index(1.0 / kVoxels);
-    world_from_index[3] = glm::dvec4(0.5 / kVoxels, 0.5 / kVoxels, 0.5 / kVoxels, 1.0);
-    return std::make_shared<const Grid<float>>(builder.getHandle<>(), world_from_index,
-                                               Box3{Vec3(-0.5f), Vec3(float(kVoxels) - 0.5f)},
-                                               Interpolation::kTrilinear, Wrap::kBackground);
-  }();
+  static const auto grid = unit_cube_grid(kVoxels, [](const glm::ivec3& v) {
+    const Vec3 p = (Vec3(v) + 0.5f) * (2.0f / kVoxels) - 1.0f;
+    const float value = 1.0f - length_squared(p) +
+                        0.4f * std::sin(9.0f * p.x) * std::sin(11.0f * p.y) * std::sin(10.0f * p.z);
+    return value > 0.3f ? value : 0.0f;
+  });
   return grid;
 }
 
