@@ -10,10 +10,16 @@
 namespace brume {
 
 namespace {
-/// Flights after which roulette stops every path sooner or later.
-constexpr int kLongPath = 3000;
+/// Flights after which roulette stops every path sooner or later, and after which a path is taken
+/// for one that has no way out.
+constexpr int kLongPath = 3000, kLostPath = 100'000;
 /// Scatterings up to which flights look for lights near to them; later ones matter too little.
 constexpr int kDepthThatSeeksLights = 2;
+/// Paths that have scattered from which the brightness of what scatters is learnt, and the camera
+/// samples after which the search for them ends.
+constexpr int kScatteredSamples = 64, kMostPilotSamples = 4096;
+/// A seed of no picture.
+constexpr std::uint64_t kPilotSeed = 0x62727570696c6f74;
 }  // namespace
 
 struct PathIntegrator::Path {
@@ -22,6 +28,7 @@ struct PathIntegrator::Path {
   const Medium* medium;  // around the ray's origin; null is vacuum
   Rgb beta{1.0f};        // throughput
   Rgb L{0.0f};           // radiance gathered [W/(m^2 sr)]
+  Rgb escaped{0.0f};     // throughput with which it left the scene before it scattered
   Vec3 vertex{ray.o};    // where the direction was chosen
   float pdf_dir =
       kInfinity;          // density of that choice [1/sr]; infinite: light sampling cannot make it
@@ -36,11 +43,32 @@ struct PathIntegrator::Path {
 
 PathIntegrator::PathIntegrator(const Scene& scene, const Camera& camera,
                                const PathSettings& settings)
-    : scene_(scene), camera_(camera), settings_(settings), camera_medium_(scene, camera) {}
+    : scene_(scene), camera_(camera), settings_(settings), camera_medium_(scene, camera) {
+  if (!settings_.hide_emitters && scene_.lights().has_environment())
+    scattered_luminance_ = learn_scattered_luminance();
+}
 
-CameraSample PathIntegrator::sample(const Vec2& film, Sampler& sampler) const {
-  const CameraRay camera_ray = camera_.ray(film, sampler.next_2d());
-  const Medium* medium = camera_medium_.at(camera_ray.ray);
+float PathIntegrator::learn_scattered_luminance() const {
+  float sum = 0.0f;
+  int scattered = 0;
+  for (int i = 0; i < kMostPilotSamples && scattered < kScatteredSamples; ++i) {
+    Sampler sampler(kPilotSeed, std::uint32_t(i), 0, true);
+    const Vec2 film = sampler.next_2d();
+    const CameraRay camera_ray = camera_.ray(film, sampler.next_2d());
+    const Path path = trace(camera_ray, camera_medium_.at(camera_ray.ray), sampler);
+    sum += luminance(path.L);
+    scattered += path.depth > 0 ? 1 : 0;
+  }
+  return scattered > 0 ? sum / float(scattered) : 0.0f;
+}
+
+float PathIntegrator::share_of_escape(const Rgb& background) const {
+  const float L = luminance(background);
+  return scattered_luminance_ < L ? scattered_luminance_ / L : 1.0f;
+}
+
+PathIntegrator::Path PathIntegrator::trace(const CameraRay& camera_ray, const Medium* medium,
+                                           Sampler& sampler) const {
   Path path{.ray = camera_ray.ray, .t_max = camera_ray.t_max, .medium = medium};
 
   for (bool alive = true; alive; ++path.segments) {
@@ -67,21 +95,31 @@ CameraSample PathIntegrator::sample(const Vec2& film, Sampler& sampler) const {
       }
     }
     if (!hit) {
-      if (path.depth > 0) add_environment(path);
+      if (path.depth > 0)
+        add_environment(path);
+      else
+        path.escaped = path.beta;
       break;
     }
     alive = interact_with_surface(path, *hit, sampler) && survives_roulette(path, sampler);
   }
+  return path;
+}
 
-  // What stands behind everything is seen through the same estimate as the opacity, not by the
-  // chance of a path that meets nothing.
+CameraSample PathIntegrator::sample(const Vec2& film, Sampler& sampler) const {
+  const CameraRay camera_ray = camera_.ray(film, sampler.next_2d());
+  const Medium* medium = camera_medium_.at(camera_ray.ray);
+  const Path path = trace(camera_ray, medium, sampler);
+
   const Rgb T = scene_.transmittance(camera_ray.ray, camera_ray.t_max, medium, sampler.rng());
   CameraSample result = path.first;
   result.alpha = 1.0f - mean(T);
   result.L = path.L;
   result.work = 1.0f + float(path.segments);
-  if (!settings_.hide_emitters)
-    result.L += T * scene_.lights().environment_radiance(camera_ray.ray.d);
+  if (!settings_.hide_emitters) {
+    const Rgb L = scene_.lights().environment_radiance(camera_ray.ray.d);
+    result.L += L * glm::mix(T, path.escaped, share_of_escape(L));
+  }
   return result;
 }
 
@@ -253,12 +291,16 @@ float PathIntegrator::light_choice(const Path& path, std::size_t light, float p_
 
 bool PathIntegrator::survives_roulette(Path& path, Sampler& sampler) const {
   if (path.depth < settings_.rr_depth && path.segments < kLongPath) return true;
-  float p_survive = std::min(max_component(path.beta) * path.eta_squared, 1.0f);
-  // A path that loses nothing would never end in a medium without a way out. The share of paths
-  // that are n flights long falls as n^-1.5 in a thick body; survival falls with the same power, so
-  // that weights keep up with it, where a constant rate would leave the long ones out.
-  if (path.segments >= kLongPath)
-    p_survive = std::min(p_survive, 1.0f - 1.5f / float(path.segments));
+  float p_survive = std::min(std::sqrt(max_component(path.beta) * path.eta_squared), 1.0f);
+  // A path that loses nothing may wander for long. Of those in a thick body a share that falls as
+  // n^-1.5 finds out after n flights. Survival that falls as n^-k lets squared weights grow with
+  // the sum of n^(k - 1.5) over all lengths, and time with that of n^(-0.5 - k): at k = 0.5 both
+  // grow with the logarithm of the longest path alone. Where there is no way out, time grows with
+  // the sum of n^-k, which ends for k > 1 only.
+  if (path.segments >= kLongPath) {
+    const float k = path.segments < kLostPath ? 0.5f : 1.5f;
+    p_survive = std::min(p_survive, 1.0f - k / float(path.segments));
+  }
   if (!(sampler.next_1d() < p_survive)) return false;
   path.beta /= p_survive;
   return true;

@@ -25,6 +25,19 @@ class PathIntegrator {
  private:
   struct Path;
 
+  Path trace(const CameraRay& camera_ray, const Medium* medium, Sampler& sampler) const;
+
+  /// Roughly the radiance of light that scattered on its way to the camera, as luminance
+  /// [W/(m^2 sr)]; 0 if none was found.
+  float learn_scattered_luminance() const;
+  /// What stands behind everything may be seen through the estimate of the transmittance T, or by
+  /// the path that meets nothing. Where that is half of the paths, say, and the others bring home
+  /// light that scattered, the sum of both varies little if the two are equally bright and the same
+  /// path decides between them. This is the part c of the background L that is left to the path:
+  /// of a sample's variance, T (1 - T) (c L - S)^2 depends on it, where S is the radiance that
+  /// scattered, so that c = S / L.
+  float share_of_escape(const Rgb& background) const;
+
   void light_segment(Path& path, const Segment& segment, const FreeFlight& flight,
                      Sampler& sampler) const;
   void connect(Path& path, const Vec3& p, const LightSample& light, const Rgb& beta, float value,
@@ -51,6 +64,7 @@ class PathIntegrator {
   const Camera& camera_;
   PathSettings settings_;
   CameraMedium camera_medium_;
+  float scattered_luminance_ = 0.0f;  // [W/(m^2 sr)]
 };
 
 }  // namespace brume

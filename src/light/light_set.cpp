@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <numeric>
 #include <utility>
 
 namespace brume {
@@ -30,10 +29,6 @@ LightSet::LightSet(std::vector<std::shared_ptr<const Light>> lights,
   }
   for (std::size_t i = 0; i < size(); ++i)
     if (i < lights_.size() || far_importance_[i] > 0.0f) choices_.push_back(i);
-  if (choices_.empty()) {
-    choices_.resize(size());
-    std::iota(choices_.begin(), choices_.end(), std::size_t(0));
-  }
 }
 
 bool LightSet::may_choose(std::size_t index) const {

@@ -14,7 +14,7 @@ namespace brume {
 ///
 /// Lights are chosen mostly by `Light::importance`, and with some probability uniformly, because
 /// what stands in between is not known. An environment whose importance is 0 is left to the paths
-/// that leave the scene, unless there is nothing else to choose.
+/// that leave the scene.
 ///
 /// Environments overlap: the sun's disk stands before the sky. They are treated as one technique
 /// that draws from the mixture of their densities and sees the sum of their radiances, so a
@@ -25,6 +25,7 @@ class LightSet {
   LightSet(std::vector<std::shared_ptr<const Light>> lights,
            std::vector<std::shared_ptr<const EnvironmentLight>> environments);
 
+  bool has_environment() const { return !environments_.empty(); }
   std::size_t size() const { return lights_.size() + environments_.size(); }
 
   /// Light arriving somewhere from a light that was chosen.

@@ -136,8 +136,9 @@ TEST(LightSet, LeavesAnEvenEnvironmentToPathsThatLeaveTheScene) {
   EXPECT_EQ(with_lamp.environment_view(Vec3(0.0f), {0, 1, 0}).pdf, 0.0f);
 
   const LightSet alone({}, {even});
-  EXPECT_EQ(alone.probability(Vec3(0.0f), 0), 1.0f);
-  EXPECT_TRUE(alone.sample(Vec3(0.0f), 0.5f, Vec2(0.5f)));
+  EXPECT_EQ(alone.probability(Vec3(0.0f), 0), 0.0f);
+  EXPECT_FALSE(alone.sample(Vec3(0.0f), 0.5f, Vec2(0.5f)));
+  EXPECT_EQ(alone.environment_view(Vec3(0.0f), {0, 1, 0}).L, Rgb(3.0f));
 }
 
 TEST(LightSet, WithoutLightsIsDark) {
