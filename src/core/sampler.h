@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "core/rng.h"
@@ -24,11 +25,25 @@ class Sampler {
   float next_1d();
   Vec2 next_2d();
 
+  /// Goes on with the dimensions of flight number `flight` of the path, from 0. Paths that met
+  /// different things before use them for the same purpose, and so stratify each other.
+  void begin_flight(std::uint32_t flight) {
+    // Never back: a number that was used is not used again.
+    if (flight < kSobolFlights)
+      dimension_ = std::max(dimension_, kCameraDimensions + kFlightDimensions * flight);
+    else
+      dimension_ = kSobolDimensions;
+  }
+
   /// Stream for tracking, where the count of numbers is not known beforehand.
   Rng& rng() { return rng_; }
 
  private:
-  static constexpr std::uint32_t kSobolDimensions = 48;
+  static constexpr std::uint32_t kCameraDimensions = 4;   // film and lens
+  static constexpr std::uint32_t kFlightDimensions = 14;  // the most that an event takes
+  static constexpr std::uint32_t kSobolFlights = 4;
+  static constexpr std::uint32_t kSobolDimensions =
+      kCameraDimensions + kSobolFlights * kFlightDimensions;
 
   std::uint64_t replication_hash_;
   std::uint32_t index_;      // within the replication

@@ -72,6 +72,7 @@ PathIntegrator::Path PathIntegrator::trace(const CameraRay& camera_ray, const Me
   Path path{.ray = camera_ray.ray, .t_max = camera_ray.t_max, .medium = medium};
 
   for (bool alive = true; alive; ++path.segments) {
+    sampler.begin_flight(std::uint32_t(path.segments));
     const auto hit = scene_.intersect(path.ray, path.t_max);
     if (hit) add_emission(path, *hit, sampler);
     if (!hit && !(path.t_max < kInfinity)) path.medium = scene_.medium_to_infinity(path.medium);
@@ -148,8 +149,9 @@ void PathIntegrator::light_segment(Path& path, const Segment& segment, const Fre
   const Vec2 u_target = sampler.next_2d();
   const Vec3 d = segment.ray.d;
 
-  if (lighting.p_near() > 0.0f && sampler.rng().next_float() < lighting.p_near()) {
-    const SegmentLighting::Point point = lighting.sample(u_light, sampler.next_1d());
+  const Vec2 u_near = lighting.p_near() > 0.0f ? sampler.next_2d() : Vec2(1.0f);
+  if (u_near.x < lighting.p_near()) {
+    const SegmentLighting::Point point = lighting.sample(u_light, u_near.y);
     const Vec3 p = segment.ray.at(point.t);
     const auto light = scene_.lights().light(point.light).sample(p, u_target);
     if (!light) return;

@@ -34,8 +34,11 @@ struct EquiangularPoints {
                 : 0.5 * M_PI + std::atan2(foot.t, h);
   }
 
+  /// foot.t + height tan(angle of the origin + u angle) as one fraction, in which nothing cancels.
   double t(double u) const {
-    return foot.t + foot.height * std::tan(std::atan2(-foot.t, foot.height) + u * angle);
+    const double tangent = std::tan(u * angle);
+    return tangent * (foot.height * foot.height + foot.t * foot.t) /
+           (foot.height + foot.t * tangent);
   }
   double pdf(double at_t) const {
     const double along = at_t - foot.t;
@@ -48,6 +51,9 @@ struct EquiangularPoints {
 SegmentLighting::SegmentLighting(const LightSet& lights, const Segment& segment)
     : lights_(lights), segment_(segment) {
   if (!segment.seeks_lights || lights.lights_with_pivot().empty()) return;
+  const auto here = segment.medium->scattering_at(segment.ray, 0.0f, segment.beta);
+  if (!here || is_black(here->value) || here->phase.is_delta()) return;
+  scattering_here_ = max_component(segment.beta * here->value);
   for (const std::size_t light : lights.lights_with_pivot()) total_weight_ += weight(light);
   if (!(total_weight_ > 0.0f)) return;
   // Half of the attention at most, and none to what the lights without a place do better.
@@ -59,11 +65,8 @@ float SegmentLighting::weight(std::size_t light) const {
   const Foot foot(*lights_.light(light).pivot(), segment_);
   if (!(foot.height > 0.0)) return 0.0f;
   const float t = float(std::clamp(foot.t, 0.0, double(segment_.t_end)));
-  const auto here = segment_.medium->scattering_at(segment_.ray, 0.0f, segment_.beta);
   const auto there = segment_.medium->scattering_at(segment_.ray, t, segment_.beta);
-  if (!here || is_black(here->value) || here->phase.is_delta()) return 0.0f;
-  const float T =
-      max_component(segment_.beta * there->value) / max_component(segment_.beta * here->value);
+  const float T = max_component(segment_.beta * there->value) / scattering_here_;
   return lights_.light(light).importance(segment_.ray.at(t)) * (std::isfinite(T) ? T : 0.0f);
 }
 

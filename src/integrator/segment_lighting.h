@@ -50,6 +50,7 @@ class SegmentLighting {
   const LightSet& lights_;
   const Segment& segment_;
   float p_near_ = 0.0f;
+  float scattering_here_ = 0.0f;  // at the segment's begin, of its throughput [1/unit]
   float total_weight_ = 0.0f;
 };
 
