@@ -130,9 +130,12 @@ TEST_P(WhiteFurnace, ShowsNothing) {
                      .voxel = [](int x, int y, int z) { return 4.0 * ((x + y + z) % 2); }};
   const RunningMean L = measure_radiance(
       {.xml =
-           scene_text(parallel_sensor({0.2, 0.1, 0}, {0.2, 0.1, 1}, 3.0) + kUniformLight +
+           scene_text(parallel_sensor({0.2, 0.1, 0}, {0.2, 0.1, 1}, 3.0) + kUniformFromTwoSkies +
                       R"(<shape type="cube"><bsdf type="null"/>)" + GetParam().medium + "</shape>"),
-       .write_files = [&](const TemporaryFolder& f) { f.write("g.vol", field.vol()); }});
+       .write_files = [&](const TemporaryFolder& f) {
+         f.write("g.vol", field.vol());
+         write_half_bright_sky(f);
+       }});
   expect_law({.name = fmt::format("white furnace, {}", GetParam().name),
               .source = "energy is conserved",
               .expected = 1.0},

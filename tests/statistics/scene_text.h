@@ -74,6 +74,23 @@ inline std::string slab_text(const std::string& contents,
 inline const std::string kUniformLight =
     R"(<emitter type="constant"><float name="radiance" value="1"/></emitter>)";
 
+/// The same from two skies, each three times as bright on one half as on the other. Light that is
+/// uneven is looked for, which an even sky leaves to the paths.
+inline const std::string kUniformFromTwoSkies =
+    R"(<emitter type="envmap"><string name="filename" value="half_bright.pfm"/></emitter>)"
+    R"(<emitter type="envmap"><string name="filename" value="half_bright.pfm"/>)"
+    R"(<transform name="to_world"><rotate x="1" angle="180"/></transform></emitter>)";
+
+/// The picture of both.
+inline void write_half_bright_sky(const TemporaryFolder& folder) {
+  std::string bytes = "PF\n1 4\n-1.0\n";
+  for (const float L : {0.25f, 0.25f, 0.75f, 0.75f}) {
+    const float rgb[] = {L, L, L};
+    bytes.append(reinterpret_cast<const char*>(rgb), sizeof rgb);
+  }
+  folder.write("half_bright.pfm", bytes);
+}
+
 /// Radiance (1, 0, 0) from above the horizon and (0, 1, 0) from below: seen from above, a slab
 /// shows its reflectance in red and its transmittance in green.
 inline const std::string kHalfLitSky =
