@@ -7,6 +7,12 @@
 
 namespace brume {
 
+namespace {
+/// Throughput below which a path ends. In a medium without a way out it would never reach 0: the
+/// smallest float times 0.95 is the smallest float again.
+constexpr float kFaintest = 1e-30f;
+}  // namespace
+
 ReferenceIntegrator::ReferenceIntegrator(const Scene& scene, const Camera& camera,
                                          const PathSettings& settings)
     : scene_(scene), camera_(camera), settings_(settings), camera_medium_(scene, camera) {}
@@ -52,7 +58,7 @@ Rgb ReferenceIntegrator::sample(const Vec2& film, Sampler& sampler) const {
     return settings_.max_depth < 0 || depth + 1 < settings_.max_depth;
   };
 
-  while (!is_black(beta)) {
+  while (max_component(beta) > kFaintest) {
     const auto hit = scene_.intersect(ray, kInfinity);
     if (!hit) medium = scene_.medium_to_infinity(medium);
     if (medium != nullptr) {
