@@ -78,7 +78,9 @@ def try_biases(scene, report, seconds, references, noise):
         own_noise = scene.squared_difference(pictures[:1], pictures[1:]) / 2
         square = scene.squared_difference(pictures, references) - noise - own_noise
         bias = setting["relative_squared_bias"]
-        low, high = (math.sqrt(max(bias["value"] + sign * bias["interval_95"], 0.0))
+        # As in the report: an estimate below 0 is 0 with bad luck.
+        value = max(bias["value"], 0.0)
+        low, high = (math.sqrt(max(value + sign * bias["interval_95"], 0.0))
                      for sign in (-1, 1))
         found = math.sqrt(max(square, 0.0))
         verdict = "inside" if low <= found <= high else "outside"
