@@ -295,7 +295,7 @@ bool PathIntegrator::survives_roulette(Path& path, Sampler& sampler) const {
   if (path.depth < settings_.rr_depth && path.segments < kLongPath) return true;
   float p_survive = std::min(std::sqrt(max_component(path.beta) * path.eta_squared), 1.0f);
   // A path that loses nothing may wander for long. Of those in a thick body a share that falls as
-  // n^-1.5 finds out after n flights. Survival that falls as n^-k lets squared weights grow with
+  // n^-1.5 leaves it after n flights. Survival that falls as n^-k lets squared weights grow with
   // the sum of n^(k - 1.5) over all lengths, and time with that of n^(-0.5 - k): at k = 0.5 both
   // grow with the logarithm of the longest path alone. Where there is no way out, time grows with
   // the sum of n^-k, which ends for k > 1 only.

@@ -18,7 +18,6 @@ struct Law {
   std::string source;  // where `expected` comes from
   double expected;
   double expected_error = 0.0;        // its standard error when it is a measurement itself
-  double rounding = 1e-6;             // relative, of paths in float whose samples hardly differ
   double max_relative_error = 0.002;  // of the standard error of brume's value to `expected`
   double max_z = 4.0;                 // a pass with fixed seeds stays a pass
 };
@@ -41,8 +40,7 @@ inline void append_validation_row(const Law& law, double value, double standard_
 /// Checks brume's `value` against the law: within `max_z` standard errors, which are small enough
 /// to tell. Records it for docs/validation.md.
 inline void expect_law(const Law& law, double value, double standard_error) {
-  const double z = (value - law.expected) /
-                   std::hypot(standard_error, law.expected_error, law.rounding * law.expected);
+  const double z = (value - law.expected) / std::hypot(standard_error, law.expected_error);
   EXPECT_LT(std::abs(z), law.max_z)
       << law.name << ": " << value << " +- " << standard_error << " where " << law.expected
       << " is expected (" << law.source << ")";
