@@ -70,8 +70,9 @@ void nearest_hit(benchmark::State& state) {
 BENCHMARK(nearest_hit)->ArgName("spheres")->Arg(10)->Arg(1000);
 
 void any_hit(benchmark::State& state) {
-  ray_query(state,
-            [](const RayQueries& q, const Ray& ray) { return q.is_occluded(ray, kInfinity); });
+  ray_query(state, [](const RayQueries& q, const Ray& ray) {
+    return q.obstacle(ray, kInfinity) != Obstacle::kNone;
+  });
 }
 BENCHMARK(any_hit)->ArgName("spheres")->Arg(10)->Arg(1000);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/sampler.h"
 
+#include <array>
+
 #include "core/hash.h"
 
 namespace brume {
@@ -24,44 +26,48 @@ constexpr std::uint32_t laine_karras(std::uint32_t x, std::uint32_t seed) {
   return x;
 }
 
-/// Owen scrambling of the digits after the binary point.
-constexpr std::uint32_t owen_scramble(std::uint32_t x, std::uint32_t seed) {
-  return reverse_bits(laine_karras(reverse_bits(x), seed));
-}
-
-/// Position of sample `i` after Owen scrambling of the order within its replication.
-constexpr std::uint32_t shuffle(std::uint32_t i, std::uint32_t seed) {
-  return owen_scramble(i, seed) % Sampler::kReplication;
-}
-
-/// Second Sobol dimension: the Pascal matrix modulo 2 applied to the bits of `i`.
-constexpr std::uint32_t sobol_second(std::uint32_t i) {
-  std::uint32_t result = 0;
-  for (std::uint32_t v = 1u << 31; i != 0; i >>= 1, v ^= v >> 1)
-    if (i & 1u) result ^= v;
-  return result;
-}
-
 /// Top 24 bits as a float in [0, 1).
 constexpr float to_unit_interval(std::uint32_t x) {
   return static_cast<float>(x >> 8) * 0x1p-24f;
+}
+
+/// Position of a sample in its replication after Owen scrambling of their order.
+constexpr std::uint32_t position(std::uint32_t reversed_index, std::uint32_t seed) {
+  return reverse_bits(laine_karras(reversed_index, seed)) % Sampler::kReplication;
+}
+
+/// Second Sobol dimension of each position, the Pascal matrix modulo 2 applied to its bits, in
+/// reversed bits.
+constexpr auto kSobolSecond = [] {
+  std::array<std::uint8_t, Sampler::kReplication> table{};
+  for (std::uint32_t index = 0; index < table.size(); ++index) {
+    std::uint32_t v = 1;
+    for (std::uint32_t i = index; i != 0; i >>= 1, v ^= v << 1)
+      if (i & 1u) table[index] ^= std::uint8_t(v);
+  }
+  return table;
+}();
+
+/// Owen scrambling of the digits after the binary point, which come with their bits reversed, as
+/// a float in [0, 1).
+constexpr float owen_scramble(std::uint32_t reversed, std::uint32_t seed) {
+  return to_unit_interval(reverse_bits(laine_karras(reversed, seed)));
 }
 
 }  // namespace
 
 Sampler::Sampler(std::uint64_t seed, std::uint32_t pixel, std::uint32_t sample, bool independent)
     : replication_hash_(hash_combine(hash_combine(seed, pixel), sample / kReplication)),
-      index_(sample % kReplication),
+      reversed_index_(reverse_bits(sample % kReplication)),
       dimension_(independent ? kSobolDimensions : 0),
-      rng_(hash_combine(replication_hash_, index_), pixel) {}
+      rng_(hash_combine(replication_hash_, sample % kReplication), pixel) {}
 
 float Sampler::next_1d() {
   if (dimension_ >= kSobolDimensions) return rng_.next_float();
   const std::uint64_t hash = hash_combine(replication_hash_, dimension_);
   dimension_ += 1;
-  const std::uint32_t index = shuffle(index_, static_cast<std::uint32_t>(hash));
-  return to_unit_interval(
-      owen_scramble(reverse_bits(index), static_cast<std::uint32_t>(hash >> 32)));
+  return owen_scramble(position(reversed_index_, static_cast<std::uint32_t>(hash)),
+                       static_cast<std::uint32_t>(hash >> 32));
 }
 
 Vec2 Sampler::next_2d() {
@@ -69,11 +75,10 @@ Vec2 Sampler::next_2d() {
   const std::uint64_t hash = hash_combine(replication_hash_, dimension_);
   const std::uint64_t scrambles = mix_bits(hash);
   dimension_ += 2;
-  const std::uint32_t index = shuffle(index_, static_cast<std::uint32_t>(hash));
-  return {
-      to_unit_interval(owen_scramble(reverse_bits(index), static_cast<std::uint32_t>(scrambles))),
-      to_unit_interval(
-          owen_scramble(sobol_second(index), static_cast<std::uint32_t>(scrambles >> 32)))};
+  // The first Sobol dimension is the position itself with its bits reversed.
+  const std::uint32_t i = position(reversed_index_, static_cast<std::uint32_t>(hash));
+  return {owen_scramble(i, static_cast<std::uint32_t>(scrambles)),
+          owen_scramble(kSobolSecond[i], static_cast<std::uint32_t>(scrambles >> 32))};
 }
 
 }  // namespace brume

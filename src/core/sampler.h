@@ -14,10 +14,12 @@ namespace brume {
 /// The first dimensions are Owen-scrambled Sobol points, each pair scrambled and shuffled on its
 /// own (Burley 2020); the rest, and `rng()`, are a PCG stream of the sample. Samples come in
 /// replications of `kReplication` consecutive indices that are scrambled independently, so that
-/// the means of replications are independent and their spread is an honest standard error.
+/// the means of replications are independent and their spread is an honest standard error. Each
+/// block of `kBlock` consecutive indices is stratified in itself.
 class Sampler {
  public:
-  static constexpr std::uint32_t kReplication = 16;
+  static constexpr std::uint32_t kBlock = 16;
+  static constexpr std::uint32_t kReplication = 64;
 
   /// `independent` replaces the Sobol points by the stream.
   Sampler(std::uint64_t seed, std::uint32_t pixel, std::uint32_t sample, bool independent = false);
@@ -46,8 +48,8 @@ class Sampler {
       kCameraDimensions + kSobolFlights * kFlightDimensions;
 
   std::uint64_t replication_hash_;
-  std::uint32_t index_;      // within the replication
-  std::uint32_t dimension_;  // the next one
+  std::uint32_t reversed_index_;  // within the replication, bit by bit
+  std::uint32_t dimension_;       // the next one
   Rng rng_;
 };
 

@@ -9,8 +9,9 @@
 namespace brume {
 namespace {
 
-/// Fewer replications say too little about their own spread.
-constexpr std::uint32_t kMinReplications = 4;
+/// Fewer say too little about their own spread. Four would do, but replications have the choice to
+/// wait, as blocks still serve.
+constexpr std::uint32_t kMinBlocks = 4, kMinReplications = 8;
 
 /// A chromatic estimate of opacity may lie outside [0, 1]; only its mean may not.
 bool is_good(const CameraSample& sample) {
@@ -62,39 +63,41 @@ void Film::add(std::uint32_t x, std::uint32_t y, const CameraSample& sample) {
   } else {
     bad_count_.fetch_add(1, std::memory_order_relaxed);
     lower_to(first_bad_, i);
-    pixel.replication_spoiled += 1;
+    pixel.blocks.spoiled += 1;
+    pixel.replications.spoiled += 1;
   }
-  if (!guide_.empty() && pixel.drawn < Sampler::kReplication)
-    guide_[i].work += sample.work / float(Sampler::kReplication);
+  if (!guide_.empty() && pixel.drawn < Sampler::kBlock)
+    guide_[i].work += sample.work / float(Sampler::kBlock);
   pixel.drawn += 1;
-  if (pixel.drawn % Sampler::kReplication != 0) return;
-  close_replication(pixel);
+  if (pixel.drawn % Sampler::kBlock != 0) return;
+  close(pixel.blocks, Sampler::kBlock, pixel);
+  if (pixel.drawn % Sampler::kReplication == 0)
+    close(pixel.replications, Sampler::kReplication, pixel);
   if (!guide_.empty()) note(pixel, guide_[i]);
 }
 
 void Film::note(const Pixel& pixel, PixelGuide& guide) {
-  const auto& lengths = PixelGuide::kReplications;
-  const auto found = std::find(lengths.begin(), lengths.end(), pixel.drawn / Sampler::kReplication);
+  const auto& lengths = PixelGuide::kBlocks;
+  const auto found = std::find(lengths.begin(), lengths.end(), pixel.drawn / Sampler::kBlock);
   if (found == lengths.end() || pixel.samples < 2) return;
   const glm::dvec3 variance = squared_standard_error(pixel) * double(pixel.samples);
   guide.variance[std::size_t(found - lengths.begin())] =
       static_cast<float>(variance.r + variance.g + variance.b);
 }
 
-void Film::close_replication(Pixel& pixel) {
-  if (pixel.replication_spoiled == 0) {
-    const double n = pixel.replications;
-    if (pixel.replications > 0) {
-      const glm::dvec3 mean_before =
-          pixel.sum_before / double(pixel.samples - Sampler::kReplication);
-      const glm::dvec3 mean = (pixel.sum - pixel.sum_before) / double(Sampler::kReplication);
+void Film::close(Groups& groups, std::uint32_t size, const Pixel& pixel) {
+  if (groups.spoiled == 0) {
+    const double n = groups.count;
+    if (groups.count > 0) {
+      const glm::dvec3 mean_before = groups.sum_before / double(pixel.samples - size);
+      const glm::dvec3 mean = (pixel.sum - groups.sum_before) / double(size);
       const glm::dvec3 deviation = mean - mean_before;
-      pixel.replication_squares += deviation * deviation * (n / (n + 1.0));
+      groups.squares += deviation * deviation * (n / (n + 1.0));
     }
-    pixel.replications += 1;
+    groups.count += 1;
   }
-  pixel.sum_before = pixel.sum;
-  pixel.replication_spoiled = 0;
+  groups.sum_before = pixel.sum;
+  groups.spoiled = 0;
 }
 
 Rgb Film::mean(std::uint32_t x, std::uint32_t y) const {
@@ -113,16 +116,23 @@ Rgb Film::standard_error(std::uint32_t x, std::uint32_t y) const {
 }
 
 glm::dvec3 Film::squared_standard_error(const Pixel& pixel) {
+  // Variances of independent sums add: those of whole replications, of blocks beyond them, and of
+  // samples beyond these.
+  const auto variance_of_sum = [](const Groups& groups, double size, double count) {
+    return groups.squares / (groups.count - 1.0) * (size * size * count);
+  };
+  constexpr double kBlock = Sampler::kBlock, kReplication = Sampler::kReplication;
+  const double replications =
+      pixel.replications.count < kMinReplications ? 0.0 : pixel.replications.count;
+  const double blocks = pixel.blocks.count < kMinBlocks
+                            ? 0.0
+                            : pixel.blocks.count - replications * (kReplication / kBlock);
   const double n = pixel.samples;
-  const glm::dvec3 sample_variance = pixel.squares / (n - 1.0);
-  if (pixel.replications < kMinReplications) return sample_variance / n;
-
-  // Variances of independent sums add: those of whole replications, and the samples beyond them.
-  const double replications = pixel.replications;
-  const double size = Sampler::kReplication;
-  const double loose = n - size * replications;
-  const glm::dvec3 replication_variance = pixel.replication_squares / (replications - 1.0);
-  return (size * size * replications * replication_variance + loose * sample_variance) / (n * n);
+  const double loose = n - kReplication * replications - kBlock * blocks;
+  glm::dvec3 sum = pixel.squares / (n - 1.0) * loose;
+  if (blocks > 0.0) sum += variance_of_sum(pixel.blocks, kBlock, blocks);
+  if (replications > 0.0) sum += variance_of_sum(pixel.replications, kReplication, replications);
+  return sum / (n * n);
 }
 
 Rgb Film::albedo(std::uint32_t x, std::uint32_t y) const {

@@ -25,11 +25,11 @@ struct FilmLayers {
 /// beforehand, however many the pixel got in the end, so that what it steers cannot depend on what
 /// it steered before.
 struct PixelGuide {
-  /// Replications after which `variance` was taken.
-  static constexpr std::array<std::uint32_t, 9> kReplications{1, 2, 4, 8, 16, 32, 64, 128, 256};
+  /// Blocks of samples after which `variance` was taken.
+  static constexpr std::array<std::uint32_t, 9> kBlocks{1, 2, 4, 8, 16, 32, 64, 128, 256};
 
-  std::array<float, kReplications.size()> variance{};  // of one sample, summed over channels
-  float work = 0.0f;  // of one sample, over the first replication; as in CameraSample
+  std::array<float, kBlocks.size()> variance{};  // of one sample, summed over channels
+  float work = 0.0f;  // of one sample, over the first block; as in CameraSample
 };
 
 /// Samples that were NaN, infinite or negative. Any is a bug, so that the first is worth a look.
@@ -40,10 +40,12 @@ struct BadSamples {
 
 /// Accumulates the samples of every pixel, in double, and knows how far the means may be off.
 ///
-/// Consecutive samples of a pixel form replications of `Sampler::kReplication`. Samples within one
-/// depend on each other, so that their spread says little about the error of their mean; whole
-/// replications are independent, and the spread of their means is honest (Owen 1997). 120 bytes a
-/// pixel. Different pixels may be filled by different threads, one pixel by one at a time.
+/// Samples of one replication of the `Sampler` depend on each other, so that their spread says
+/// little about the error of their mean; whole replications are independent, and the spread of
+/// their means is honest (Owen 1997). While they are few, the blocks that they consist of are taken
+/// for independent. Those stratify each other, too, which makes the error look larger than it is.
+/// 176 bytes a pixel. Different pixels may be filled by different threads, one pixel by one at a
+/// time.
 class Film {
  public:
   Film(std::uint32_t width, std::uint32_t height, FilmLayers layers = {});
@@ -67,8 +69,9 @@ class Film {
   /// Mean opacity; 0 without samples.
   float alpha(std::uint32_t x, std::uint32_t y) const;
   /// Standard error of `mean` per channel; infinite with fewer than two samples, where nothing is
-  /// known. With four whole replications it comes from the spread of their means, samples beyond
-  /// them counting as independent; before that from the spread of single samples.
+  /// known. With eight whole replications it comes from the spread of their means, before that with
+  /// four whole blocks from that of the blocks' means; blocks, and single samples, beyond them
+  /// count as independent. With less than four blocks from the spread of single samples.
   Rgb standard_error(std::uint32_t x, std::uint32_t y) const;
   /// Mean albedo over all samples. Requires the layer.
   Rgb albedo(std::uint32_t x, std::uint32_t y) const;
@@ -76,7 +79,7 @@ class Film {
   /// layer.
   float depth(std::uint32_t x, std::uint32_t y) const;
 
-  /// What steers adaptive sampling; zero until the pixel has the replications. Requires the layer.
+  /// What steers adaptive sampling; zero until the pixel has the blocks. Requires the layer.
   const PixelGuide& guide(std::uint32_t x, std::uint32_t y) const { return guide_[index(x, y)]; }
 
   /// Nothing when every sample was good.
@@ -89,23 +92,27 @@ class Film {
   std::vector<std::span<unsigned char>> pixel_bytes();
 
  private:
+  /// How the means of consecutive groups of samples spread. A group with a bad sample is left out.
+  struct Groups {
+    glm::dvec3 sum_before{0.0};  // of the pixel, when the current group began
+    glm::dvec3 squares{0.0};     // of the means' deviations from their mean
+    std::uint32_t count = 0;
+    std::uint32_t spoiled = 0;  // by this many bad samples in the current group
+  };
   struct Pixel {
-    glm::dvec3 sum{0.0};                  // of the good samples
-    glm::dvec3 sum_before{0.0};           // the same when the current replication began
-    glm::dvec3 squares{0.0};              // of single samples' deviations from their mean
-    glm::dvec3 replication_squares{0.0};  // of whole replications' deviations from their mean
+    glm::dvec3 sum{0.0};      // of the good samples
+    glm::dvec3 squares{0.0};  // of their deviations from their mean
+    Groups blocks, replications;
     double alpha_sum = 0.0;
-    std::uint32_t samples = 0;              // good ones
-    std::uint32_t drawn = 0;                // bad ones too
-    std::uint32_t replications = 0;         // whole ones: all samples were good
-    std::uint32_t replication_spoiled = 0;  // by this many bad samples in the current one
+    std::uint32_t samples = 0;  // good ones
+    std::uint32_t drawn = 0;    // bad ones too
   };
   struct Depth {
     double sum = 0.0;
     std::uint64_t samples = 0;
   };
 
-  static void close_replication(Pixel& pixel);
+  static void close(Groups& groups, std::uint32_t size, const Pixel& pixel);
   static glm::dvec3 squared_standard_error(const Pixel& pixel);
   static void note(const Pixel& pixel, PixelGuide& guide);
 

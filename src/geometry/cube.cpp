@@ -72,7 +72,8 @@ std::optional<Crossing> Cube::intersect(const PreciseRay& ray, double t_max) con
     }
     const std::uint32_t positive = d[axis] > 0.0 ? 1 : 0;
     const double toward = d[axis] > 0.0 ? 1.0 : -1.0;
-    const double t0 = (-toward - o[axis]) / d[axis], t1 = (toward - o[axis]) / d[axis];
+    const double inverse = 1.0 / d[axis];
+    const double t0 = (-toward - o[axis]) * inverse, t1 = (toward - o[axis]) * inverse;
     if (t0 > t_enter) {
       t_enter = t0;
       side_enter = 2 * axis + (1 - positive);

@@ -45,7 +45,8 @@ struct Query {
   RTCIntersectContext context;  // first, so that its address is that of the query
   const PreciseRay& ray;        // near the items
   double t_max;                 // crossings count in (0, t_max] along `ray` [unit]
-  Hierarchy::Cluster* found;    // null where any crossing will do
+  Hierarchy::Cluster* found;    // null where the obstacle alone is asked for
+  Obstacle obstacle = Obstacle::kNone;
 
   Query(const PreciseRay& r, double t, Hierarchy::Cluster* cluster)
       : ray(r), t_max(t), found(cluster) {
@@ -89,9 +90,11 @@ void intersect_item(const RTCIntersectFunctionNArguments* args) {
 void occlude_item(const RTCOccludedFunctionNArguments* args) {
   assert(args->N == 1);
   if (args->valid[0] == 0) return;
-  const Query& query = query_of(args->context);
-  if (geometry_of(args->geometryUserPtr).items.occludes(args->primID, query.ray, query.t_max))
-    reinterpret_cast<RTCRay*>(args->ray)->tfar = -kInfinity;
+  Query& query = query_of(args->context);
+  const Hierarchy::Items& items = geometry_of(args->geometryUserPtr).items;
+  query.obstacle = std::max(query.obstacle, items.obstacle(args->primID, query.ray, query.t_max));
+  // Which ends the search.
+  if (query.obstacle == Obstacle::kOpaque) reinterpret_cast<RTCRay*>(args->ray)->tfar = -kInfinity;
 }
 
 Box3 bounds_of(const Hierarchy::Items& items) {
@@ -179,15 +182,15 @@ std::optional<Hierarchy::Found> Hierarchy::nearest(const PreciseRay& ray, double
   return found;
 }
 
-bool Hierarchy::is_occluded(const PreciseRay& ray, double t_max) const {
+Obstacle Hierarchy::obstacle(const PreciseRay& ray, double t_max) const {
   const TraversalSpace& space = impl_->geometry.space;
   const auto local = space.ray(ray);
-  if (!local || !(local->start < t_max)) return false;
+  if (!local || !(local->start < t_max)) return Obstacle::kNone;
   const PreciseRay near{.o = ray.at(local->start), .d = ray.d};
   Query query(near, t_max - local->start, nullptr);
   RTCRay embree = embree_ray(local->o, ray.d, space.distance(query.t_max));
   rtcOccluded1(impl_->scene.get(), &query.context, &embree);
-  return embree.tfar < 0.0f;
+  return query.obstacle;
 }
 
 }  // namespace brume

@@ -18,6 +18,9 @@ struct Crossing {
   Vec2d xy;            // place on the face, in coordinates of the shape's own
 };
 
+/// What stands in the way of light, from nothing to the most.
+enum class Obstacle { kNone, kPassable, kOpaque };
+
 /// Bounding volume hierarchy: finds the items that a ray may meet. Immutable; shared between
 /// threads.
 ///
@@ -36,8 +39,8 @@ class Hierarchy {
     /// First crossing for t in (0, t_max].
     virtual std::optional<Crossing> intersect(std::uint32_t item, const PreciseRay& ray,
                                               double t_max) const = 0;
-    /// Whether there is any.
-    virtual bool occludes(std::uint32_t item, const PreciseRay& ray, double t_max) const = 0;
+    /// What light meets that needs only know whether there is any.
+    virtual Obstacle obstacle(std::uint32_t item, const PreciseRay& ray, double t_max) const = 0;
   };
 
   /// Whether to look for crossings right behind the nearest.
@@ -82,7 +85,8 @@ class Hierarchy {
   /// First crossing for t in (0, t_max], with those that are all but at the same place where they
   /// are looked for.
   std::optional<Found> nearest(const PreciseRay& ray, double t_max) const;
-  bool is_occluded(const PreciseRay& ray, double t_max) const;
+  /// The most of what stands in the way for t in (0, t_max].
+  Obstacle obstacle(const PreciseRay& ray, double t_max) const;
 
  private:
   struct Impl;

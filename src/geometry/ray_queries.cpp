@@ -2,6 +2,7 @@
 #include "geometry/ray_queries.h"
 
 #include <cassert>
+#include <utility>
 #include <vector>
 
 namespace brume {
@@ -20,8 +21,12 @@ PreciseRay precise(const Ray& ray) {
 
 class RayQueries::Impl final : public Hierarchy::Items {
  public:
-  explicit Impl(std::span<const std::shared_ptr<const Shape>> shapes)
-      : shapes_(shapes.begin(), shapes.end()), hierarchy_(*this, Hierarchy::Behind::kFind) {}
+  Impl(std::span<const std::shared_ptr<const Shape>> shapes, std::vector<bool> is_passable)
+      : shapes_(shapes.begin(), shapes.end()),
+        is_passable_(std::move(is_passable)),
+        hierarchy_(*this, Hierarchy::Behind::kFind) {
+    is_passable_.resize(shapes_.size());
+  }
 
   std::uint32_t count() const override { return static_cast<std::uint32_t>(shapes_.size()); }
   Box3 bounds(std::uint32_t item) const override { return shapes_[item]->bounds(); }
@@ -29,8 +34,9 @@ class RayQueries::Impl final : public Hierarchy::Items {
                                     double t_max) const override {
     return shapes_[item]->intersect(ray, t_max);
   }
-  bool occludes(std::uint32_t item, const PreciseRay& ray, double t_max) const override {
-    return shapes_[item]->occludes(ray, t_max);
+  Obstacle obstacle(std::uint32_t item, const PreciseRay& ray, double t_max) const override {
+    if (!shapes_[item]->occludes(ray, t_max)) return Obstacle::kNone;
+    return is_passable_[item] ? Obstacle::kPassable : Obstacle::kOpaque;
   }
 
   Hit hit(const Hierarchy::Found& found, const Hierarchy::ItemCrossing& at) const {
@@ -68,12 +74,14 @@ class RayQueries::Impl final : public Hierarchy::Items {
 
  private:
   std::vector<std::shared_ptr<const Shape>> shapes_;
+  std::vector<bool> is_passable_;  // [shape]
   Hierarchy hierarchy_;
 };
 
-RayQueries::RayQueries(std::span<const std::shared_ptr<const Shape>> shapes) {
+RayQueries::RayQueries(std::span<const std::shared_ptr<const Shape>> shapes,
+                       std::vector<bool> is_passable) {
   assert(!shapes.empty());
-  impl_ = std::make_unique<const Impl>(shapes);
+  impl_ = std::make_unique<const Impl>(shapes, std::move(is_passable));
 }
 RayQueries::RayQueries(RayQueries&&) noexcept = default;
 RayQueries& RayQueries::operator=(RayQueries&&) noexcept = default;
@@ -88,8 +96,8 @@ std::optional<Hit> RayQueries::intersect(const Ray& ray, float t_max) const {
   return hit;
 }
 
-bool RayQueries::is_occluded(const Ray& ray, float t_max) const {
-  return impl_->hierarchy().is_occluded(precise(ray), inclusive(t_max));
+Obstacle RayQueries::obstacle(const Ray& ray, float t_max) const {
+  return impl_->hierarchy().obstacle(precise(ray), inclusive(t_max));
 }
 
 }  // namespace brume

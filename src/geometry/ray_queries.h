@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "geometry/hit.h"
 #include "geometry/shape.h"
@@ -15,8 +16,10 @@ namespace brume {
 /// answers, and names the others.
 class RayQueries {
  public:
-  /// At least one shape. `Hit::shape` is the index in `shapes`.
-  explicit RayQueries(std::span<const std::shared_ptr<const Shape>> shapes);
+  /// At least one shape, for each of which `is_passable` says whether light may go on through it
+  /// (none if it is empty). `Hit::shape` is the index in `shapes`.
+  explicit RayQueries(std::span<const std::shared_ptr<const Shape>> shapes,
+                      std::vector<bool> is_passable = {});
   RayQueries(RayQueries&&) noexcept;
   RayQueries& operator=(RayQueries&&) noexcept;
   ~RayQueries();
@@ -24,8 +27,8 @@ class RayQueries {
   /// Nearest surface along `ray` in (0, t_max), which may be infinite. There is no smallest
   /// distance: rays that leave a surface start at `Hit::leave`.
   std::optional<Hit> intersect(const Ray& ray, float t_max) const;
-  /// Whether any surface lies along `ray` in (0, t_max).
-  bool is_occluded(const Ray& ray, float t_max) const;
+  /// The most of what stands in the way along `ray` in (0, t_max).
+  Obstacle obstacle(const Ray& ray, float t_max) const;
 
  private:
   class Impl;

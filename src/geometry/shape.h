@@ -41,7 +41,7 @@ class Shape {
 
   /// First crossing of the ray for t in (0, t_max].
   virtual std::optional<Crossing> intersect(const PreciseRay& ray, double t_max) const = 0;
-  /// Whether there is any.
+  /// Whether there is any, wherever it lies.
   virtual bool occludes(const PreciseRay& ray, double t_max) const {
     return intersect(ray, t_max).has_value();
   }

@@ -2,6 +2,7 @@
 #include "geometry/spherical_rectangle.h"
 
 #include <algorithm>
+#include <complex>
 
 namespace brume {
 namespace {
@@ -19,11 +20,20 @@ struct EdgeNormal {
 };
 
 /// Inner angle of the spherical rectangle where two edges meet, arccos(-dot) of their normals
-/// (eq. 8). The arc tangent is accurate for angles near 0 and pi, too.
-double corner_angle(const EdgeNormal& along_x, const EdgeNormal& along_y) {
+/// (eq. 8), as the number of modulus 1 that has it for argument.
+std::complex<double> corner(const EdgeNormal& along_x, const EdgeNormal& along_y) {
   const Vec3d cross(along_x.in_plane * along_y.z, along_x.z * along_y.in_plane,
                     along_x.in_plane * along_y.in_plane);
-  return std::atan2(glm::length(cross), -along_x.z * along_y.z);
+  return {-along_x.z * along_y.z, glm::length(cross)};
+}
+
+/// Sum of two inner angles: products add arguments, so that one arc tangent, accurate near 0 and
+/// pi, too, serves for both.
+double sum_of_angles(const std::complex<double>& a, const std::complex<double>& b) {
+  const double real = a.real() * b.real() - a.imag() * b.imag();
+  const double imaginary = a.real() * b.imag() + a.imag() * b.real();
+  const double angle = std::atan2(imaginary, real);
+  return angle < 0.0 ? angle + 2.0 * M_PI : angle;
 }
 
 }  // namespace
@@ -48,8 +58,8 @@ SphericalRectangle::SphericalRectangle(const Vec3d& from, const Vec3d& center, c
   const EdgeNormal n0 = normal(-y0_), n1 = normal(x1_), n2 = normal(y1_), n3 = normal(-x0_);
   b0_ = n0.z;
   b1_ = n2.z;
-  k_ = 2.0 * M_PI - corner_angle(n2, n3) - corner_angle(n0, n3);
-  solid_angle_ = std::max(0.0, corner_angle(n0, n1) + corner_angle(n2, n1) - k_);
+  k_ = 2.0 * M_PI - sum_of_angles(corner(n2, n3), corner(n0, n3));
+  solid_angle_ = std::max(0.0, sum_of_angles(corner(n0, n1), corner(n2, n1)) - k_);
 }
 
 Vec2d SphericalRectangle::sample(const Vec2d& u) const {

@@ -128,7 +128,7 @@ std::optional<Crossing> TriangleMesh::intersect(const PreciseRay& ray, double t_
 }
 
 bool TriangleMesh::occludes(const PreciseRay& ray, double t_max) const {
-  return hierarchy_->is_occluded(ray, t_max);
+  return hierarchy_->obstacle(ray, t_max) != Obstacle::kNone;
 }
 
 Hit TriangleMesh::hit(const PreciseRay& /*ray*/, const Crossing& crossing) const {

@@ -43,8 +43,8 @@ class TriangleMesh final : public Shape {
     Box3 bounds(std::uint32_t triangle) const override;
     std::optional<Crossing> intersect(std::uint32_t triangle, const PreciseRay& ray,
                                       double t_max) const override;
-    bool occludes(std::uint32_t triangle, const PreciseRay& ray, double t_max) const override {
-      return intersect(triangle, ray, t_max).has_value();
+    Obstacle obstacle(std::uint32_t triangle, const PreciseRay& ray, double t_max) const override {
+      return intersect(triangle, ray, t_max) ? Obstacle::kOpaque : Obstacle::kNone;
     }
 
    private:

@@ -54,14 +54,18 @@ SegmentLighting::SegmentLighting(const LightSet& lights, const Segment& segment)
   const auto here = segment.medium->scattering_at(segment.ray, 0.0f, segment.beta);
   if (!here || is_black(here->value) || here->phase.is_delta()) return;
   scattering_here_ = max_component(segment.beta * here->value);
-  for (const std::size_t light : lights.lights_with_pivot()) total_weight_ += weight(light);
+  for (const std::size_t light : lights.lights_with_pivot()) {
+    const float computed = compute_weight(light);
+    if (light < kept_weights_.size()) kept_weights_[light] = computed;
+    total_weight_ += computed;
+  }
   if (!(total_weight_ > 0.0f)) return;
   // Half of the attention at most, and none to what the lights without a place do better.
   const float others = lights.importance_without_pivot();
   p_near_ = 0.5f * total_weight_ / (total_weight_ + others);
 }
 
-float SegmentLighting::weight(std::size_t light) const {
+float SegmentLighting::compute_weight(std::size_t light) const {
   const Foot foot(*lights_.light(light).pivot(), segment_);
   if (!(foot.height > 0.0)) return 0.0f;
   const float t = float(std::clamp(foot.t, 0.0, double(segment_.t_end)));

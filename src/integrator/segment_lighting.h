@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+
 #include "light/light_set.h"
 #include "medium/medium.h"
 
@@ -45,13 +47,17 @@ class SegmentLighting {
   float choice(std::size_t light, float t, float p_choice) const;
 
  private:
-  float weight(std::size_t light) const;
+  float weight(std::size_t light) const {
+    return light < kept_weights_.size() ? kept_weights_[light] : compute_weight(light);
+  }
+  float compute_weight(std::size_t light) const;
 
   const LightSet& lights_;
   const Segment& segment_;
   float p_near_ = 0.0f;
   float scattering_here_ = 0.0f;  // at the segment's begin, of its throughput [1/unit]
   float total_weight_ = 0.0f;
+  std::array<float, 8> kept_weights_;  // [light]; the first lights' are asked for again
 };
 
 }  // namespace brume

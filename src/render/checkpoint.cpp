@@ -28,7 +28,7 @@ namespace {
 using Bytes = std::span<const unsigned char>;
 
 constexpr std::array<char, 16> kMagic{"brume state\r\n\x1a"};
-constexpr std::uint64_t kFormat = 1;
+constexpr std::uint64_t kFormat = 2;
 constexpr std::uint64_t kLongestFingerprint = 1u << 24;  // [bytes]
 
 struct Header {

@@ -75,7 +75,7 @@ class Renderer {
 
   StopReason run();
   RenderState state() const {
-    return {.replications = state_.replications, .seconds = seconds_before_ + clock_.elapsed()};
+    return {.blocks = state_.blocks, .seconds = seconds_before_ + clock_.elapsed()};
   }
 
  private:
@@ -122,20 +122,20 @@ StopReason Renderer::run() {
       progress_.set_error(error.upper_bound);
       if (error.upper_bound < settings_.error) return StopReason::kErrorTarget;
     }
-    const std::uint32_t next = next_round(state_.replications);
-    if (next == state_.replications || has_all_samples()) return StopReason::kSampleCount;
-    state_.replications = next;
+    const std::uint32_t next = next_round(state_.blocks);
+    if (next == state_.blocks || has_all_samples()) return StopReason::kSampleCount;
+    state_.blocks = next;
   }
   return interrupt_requested() ? StopReason::kInterrupted : StopReason::kTimeLimit;
 }
 
 /// Whether the latest round could be brought to its end.
 bool Renderer::finish_round() {
-  const SamplePlan plan = settings_.adaptive && state_.replications > 0
-                              ? adaptive_plan(film_, state_.replications)
-                              : even_plan(state_.replications);
+  const SamplePlan plan = settings_.adaptive && state_.blocks > 0
+                              ? adaptive_plan(film_, state_.blocks)
+                              : even_plan(state_.blocks);
   // The picture as a whole is there soon, whatever ends the render.
-  if (state_.replications == 1)
+  if (state_.blocks == 1)
     for (const std::uint32_t few : {1u, 2u, 4u, 8u})
       if (!bring_to(plan, std::min(few, settings_.spp))) return false;
   return bring_to(plan, settings_.spp);
@@ -167,8 +167,7 @@ void Renderer::render_tile(std::uint32_t tile, const SamplePlan& plan, std::uint
       for (std::uint32_t i = film_.drawn(x, y); i < end;) {
         if (clock_.calls()) return;
         const std::uint32_t first = i;
-        for (; i < std::min(end, first + Sampler::kReplication); ++i)
-          film_.add(x, y, sample_(x, y, i));
+        for (; i < std::min(end, first + Sampler::kBlock); ++i) film_.add(x, y, sample_(x, y, i));
         progress_.add(i - first);
       }
     }

@@ -20,8 +20,8 @@ using SampleFunction =
 
 /// How far a render has come, besides the samples in its film.
 struct RenderState {
-  std::uint32_t replications = 0;  // a pixel on average, that the latest round aims at
-  double seconds = 0.0;            // of rendering
+  std::uint32_t blocks = 0;  // a pixel on average, that the latest round aims at
+  double seconds = 0.0;      // of rendering
 };
 
 /// Saves what was rendered so far; does not throw. Samples rest meanwhile.

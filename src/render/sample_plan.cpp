@@ -15,7 +15,7 @@ constexpr int kRadius = 4;                  // [pixel] of the window that decide
 constexpr std::uint32_t kFloorDivisor = 8;  // no pixel gets less than this part of the average
 constexpr double kLargestFactor = 8.0;      // nor more than this multiple
 /// Sample indices have 32 bits.
-constexpr std::uint32_t kMostReplications = 0xffffffffu / Sampler::kReplication;
+constexpr std::uint32_t kMostBlocks = 0xffffffffu / Sampler::kBlock;
 
 /// Sums over rectangles of a picture in constant time (Crow 1984).
 class SummedArea {
@@ -46,11 +46,10 @@ class SummedArea {
 };
 
 /// The longest prefix that every pixel has when the round before is done. Rounds at most double.
-std::size_t guide_level(std::uint32_t replications) {
-  const auto& lengths = PixelGuide::kReplications;
+std::size_t guide_level(std::uint32_t blocks) {
+  const auto& lengths = PixelGuide::kBlocks;
   std::size_t level = 0;
-  while (level + 1 < lengths.size() && lengths[level + 1] <= replications / (2 * kFloorDivisor))
-    ++level;
+  while (level + 1 < lengths.size() && lengths[level + 1] <= blocks / (2 * kFloorDivisor)) ++level;
   return level;
 }
 
@@ -84,29 +83,29 @@ std::vector<float> weights(const Film& film, std::size_t level) {
 
 }  // namespace
 
-std::uint32_t next_round(std::uint32_t replications) {
-  return std::min(replications + std::max(replications / 8, 1u), kMostReplications);
+std::uint32_t next_round(std::uint32_t blocks) {
+  return std::min(blocks + std::max(blocks / 8, 1u), kMostBlocks);
 }
 
-SamplePlan even_plan(std::uint32_t replications) {
-  return {.even = replications * Sampler::kReplication};
+SamplePlan even_plan(std::uint32_t blocks) {
+  return {.even = blocks * Sampler::kBlock};
 }
 
-SamplePlan adaptive_plan(const Film& film, std::uint32_t replications) {
+SamplePlan adaptive_plan(const Film& film, std::uint32_t blocks) {
   assert(film.layers().guide);
-  if (replications < 2) return even_plan(replications);  // nothing is known yet
-  const std::vector<float> weight = weights(film, guide_level(replications));
+  if (blocks < 2) return even_plan(blocks);  // nothing is known yet
+  const std::vector<float> weight = weights(film, guide_level(blocks));
   double mean_weight = 0.0;
   for (const float w : weight) mean_weight += w / double(weight.size());
-  if (!(mean_weight > 0.0)) return even_plan(replications);
+  if (!(mean_weight > 0.0)) return even_plan(blocks);
 
-  const double fewest = std::max(replications / kFloorDivisor, 1u);
-  const double most = std::min(kLargestFactor * double(replications), double(kMostReplications));
+  const double fewest = std::max(blocks / kFloorDivisor, 1u);
+  const double most = std::min(kLargestFactor * double(blocks), double(kMostBlocks));
   SamplePlan plan;
   plan.uneven.reserve(weight.size());
   for (const float w : weight) {
-    const double wanted = std::round(replications * (w / mean_weight));
-    plan.uneven.push_back(std::uint32_t(std::clamp(wanted, fewest, most)) * Sampler::kReplication);
+    const double wanted = std::round(blocks * (w / mean_weight));
+    plan.uneven.push_back(std::uint32_t(std::clamp(wanted, fewest, most)) * Sampler::kBlock);
   }
   return plan;
 }

@@ -8,12 +8,12 @@ namespace brume {
 
 class Film;
 
-/// A render goes in rounds. The first gives each pixel one replication of samples, each further one
-/// an eighth more than there were, and at least one replication: the replications that a pixel has
-/// on average after the round that aimed at `replications`; 0 before the first. A fixed sequence,
+/// A render goes in rounds. The first gives each pixel one block of samples, each further one
+/// an eighth more than there were, and at least one block: the blocks that a pixel has
+/// on average after the round that aimed at `blocks`; 0 before the first. A fixed sequence,
 /// so that a render that was asked for less has done what one that is asked for more does first.
 /// It ends, and stays at its last value, with the last sample index.
-std::uint32_t next_round(std::uint32_t replications);
+std::uint32_t next_round(std::uint32_t blocks);
 
 /// Samples that pixels are to have at the end of a round.
 struct SamplePlan {
@@ -24,16 +24,16 @@ struct SamplePlan {
 };
 
 /// As many for each.
-SamplePlan even_plan(std::uint32_t replications);
+SamplePlan even_plan(std::uint32_t blocks);
 
 /// More for noisy and cheap pixels, in proportion to the standard deviation over the root of the
 /// cost (Neyman 1934), which gives the least error for the time; between an eighth and eight times
-/// `replications`, so that what looks dark and quiet is still looked at.
+/// `blocks`, so that what looks dark and quiet is still looked at.
 ///
 /// What a pixel gets is decided by the pixels around it and never by its own samples, and by
 /// samples whose number was fixed beforehand (PixelGuide), so that its mean stays unbiased. Only
 /// the scale that all pixels share depends on all of them. Requires the film's guide layer and
 /// that the rounds before were made.
-SamplePlan adaptive_plan(const Film& film, std::uint32_t replications);
+SamplePlan adaptive_plan(const Film& film, std::uint32_t blocks);
 
 }  // namespace brume

@@ -50,6 +50,12 @@ std::vector<std::shared_ptr<const Shape>> shapes_of(const std::vector<Surface>& 
   return shapes;
 }
 
+std::vector<bool> which_pass_straight(const std::vector<Surface>& surfaces) {
+  std::vector<bool> result;
+  for (const Surface& surface : surfaces) result.push_back(surface.bsdf->passes_straight());
+  return result;
+}
+
 /// Lights of all surfaces, which come first in the set of lights, then the others.
 std::vector<std::shared_ptr<const Light>> joined(
     const std::vector<std::shared_ptr<const AreaLight>>& area_lights,
@@ -80,9 +86,9 @@ Scene::Scene(SceneParts parts)
       lights_(joined(area_lights_, parts.lights), std::move(parts.environments)) {
   for (Surface& surface : surfaces_) place_in_world(surface, world_medium_);
   enclosed_ = enclosed_media(surfaces_, world_medium_.get());
-  passes_straight_ = std::any_of(surfaces_.begin(), surfaces_.end(),
-                                 [](const Surface& s) { return s.bsdf->passes_straight(); });
-  if (!surfaces_.empty()) queries_.emplace(shapes_of(surfaces_));
+  const std::vector<bool> passes_straight = which_pass_straight(surfaces_);
+  has_opaque_ = std::count(passes_straight.begin(), passes_straight.end(), false) > 0;
+  if (!surfaces_.empty()) queries_.emplace(shapes_of(surfaces_), passes_straight);
 
   std::size_t index = 0;
   for (const auto& light : area_lights_) light_index_.push_back(light ? index++ : 0);
@@ -175,8 +181,12 @@ Rgb Scene::transmittance(const Ray& ray, float distance, const Medium* medium, R
   const auto crossing = [&](const Ray& part, float length) {
     return (similar ? medium->similar() : *medium).transmittance(part, length, rng);
   };
-  if (!passes_straight_) {
-    if (queries_ && queries_->is_occluded(ray, distance)) return Rgb{0.0f};
+  // Most light meets a wall or nothing. That is cheaper to ask than what it meets first, unless
+  // nothing is opaque.
+  Obstacle obstacle = queries_ ? Obstacle::kPassable : Obstacle::kNone;
+  if (has_opaque_) obstacle = queries_->obstacle(ray, distance);
+  if (obstacle == Obstacle::kOpaque) return Rgb{0.0f};
+  if (obstacle == Obstacle::kNone) {
     if (!(distance < kInfinity)) medium = medium_to_infinity(medium);
     return medium == nullptr ? Rgb{1.0f} : crossing(ray, distance);
   }

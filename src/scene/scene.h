@@ -85,7 +85,7 @@ class Scene {
   std::vector<Surface> surfaces_;
   std::shared_ptr<const Medium> world_medium_;
   std::vector<const Medium*> enclosed_;  // media that fill only the inside of closed surfaces
-  bool passes_straight_;                 // whether light passes straight through any surface
+  bool has_opaque_;                      // whether any surface stops all light
   std::optional<RayQueries> queries_;
   std::vector<std::shared_ptr<const AreaLight>> area_lights_;  // [surface], null: emits nothing
   std::vector<std::size_t> light_index_;                       // [surface], in lights_

@@ -19,10 +19,10 @@ constexpr double kReferenceShare = 1.0 / 3.0;  // of the time
 /// The reference's seeds are no trial's.
 constexpr std::uint64_t kReferenceSeed = 1'000'000'007;
 
-std::uint32_t whole_replications(double spp) {
+std::uint32_t whole_blocks(double spp) {
   constexpr double kMost = 1 << 24;
-  const double replications = std::floor(std::clamp(spp, 0.0, kMost) / Sampler::kReplication);
-  return Sampler::kReplication * std::uint32_t(std::max(replications, 1.0));
+  const double blocks = std::floor(std::clamp(spp, 0.0, kMost) / Sampler::kBlock);
+  return Sampler::kBlock * std::uint32_t(std::max(blocks, 1.0));
 }
 
 Image mean_of(const std::vector<Image>& pictures) {
@@ -73,7 +73,7 @@ class Runner {
       const double before = seconds_left();
       subject_.render(spp, 0);
       const double seconds = before - seconds_left();
-      if (spp >= Sampler::kReplication || seconds > 0.05 * at_most) return seconds / spp;
+      if (spp >= Sampler::kBlock || seconds > 0.05 * at_most) return seconds / spp;
     }
   }
 
@@ -82,7 +82,7 @@ class Runner {
     const double share = kReferenceShare * seconds_left();
     const double until = seconds_left() - share;
     const double each = seconds_per_sample(share);
-    const std::uint32_t spp = whole_replications(0.5 * (seconds_left() - until) / each);
+    const std::uint32_t spp = whole_blocks(0.5 * (seconds_left() - until) / each);
     Image first = subject_.render(spp, kReferenceSeed).picture;
     Image second = subject_.render(spp, kReferenceSeed + 1).picture;
     if (stopped()) return false;
@@ -98,7 +98,7 @@ class Runner {
     subject_.prepare(trial);
     const double each = seconds_per_sample(share);
     const double time = seconds_left() - until;
-    const std::uint32_t spp = trial.spp.value_or(whole_replications(time / (kSeeds * each)));
+    const std::uint32_t spp = trial.spp.value_or(whole_blocks(time / (kSeeds * each)));
     // Everything is compared with the default, whatever it takes.
     const bool is_default = study.results.empty() && study.skipped.empty();
     const double fitting = std::min(time / (spp * each), double(kSeeds));

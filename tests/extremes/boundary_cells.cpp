@@ -22,15 +22,14 @@ std::string white_room(const glm::dvec3& lo, const glm::dvec3& hi) {
 }
 
 void add(std::vector<Cell>& cells, const std::string& axis, const std::string& name, double at,
-         const std::string& scene, std::optional<double> want, bool central_ray,
-         int replications = 256) {
+         const std::string& scene, std::optional<double> want, bool central_ray, int blocks = 256) {
   cells.push_back({.axis = axis,
                    .at = at,
                    .name = name,
                    .scene = scene,
                    .central_ray = central_ray,
                    .want = want ? std::optional(glm::dvec3(*want)) : std::nullopt,
-                   .replications = replications});
+                   .blocks = blocks});
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 
 namespace brume::test {
 
-Outcome measure(const Cell& cell, const std::string& scene, int replications) {
+Outcome measure(const Cell& cell, const std::string& scene, int blocks) {
   std::uint64_t seed = 0;
   for (const char c : cell.name + scene.substr(0, scene == cell.like ? 1 : 0))
     seed = hash_combine(seed, std::uint64_t(c));
@@ -24,9 +24,10 @@ Outcome measure(const Cell& cell, const std::string& scene, int replications) {
   Outcome outcome;
   const std::uint64_t violations_before = majorant_violations();
   const auto begin = std::chrono::steady_clock::now();
-  for (int r = 0; r < replications; ++r) {
+  for (int r = 0; r < blocks; ++r) {
     glm::dvec3 sum(0.0);
-    for (std::uint32_t i = 0; i < Sampler::kReplication; ++i) {
+    for (std::uint32_t i = 0; i < Sampler::kBlock; ++i) {
+      // Blocks of different replications are independent.
       Sampler sampler(seed, 0, std::uint32_t(r) * Sampler::kReplication + i);
       const Vec2 film = cell.central_ray ? Vec2(0.5f) : sampler.next_2d();
       const CameraSample sample = integrator.sample(film, sampler);
@@ -36,7 +37,7 @@ Outcome measure(const Cell& cell, const std::string& scene, int replications) {
       else
         ++outcome.bad_samples;
     }
-    for (int c = 0; c < 3; ++c) outcome.L[c].add(sum[c] / Sampler::kReplication);
+    for (int c = 0; c < 3; ++c) outcome.L[c].add(sum[c] / Sampler::kBlock);
   }
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
   outcome.seconds = elapsed.count();

@@ -25,7 +25,7 @@ struct Cell {
   std::optional<glm::dvec3> want{};  // radiance; none where only soundness is known
   std::string like{};                // or a scene that has the same radiance
   double rounding = 1e-5;            // relative error that the floats of a path may add
-  int replications = 256;            // of `Sampler::kReplication` samples, in the short run
+  int blocks = 256;                  // of `Sampler::kBlock` samples, in the short run
 };
 
 /// Radiance below which floats lose digits [W/(m^2 sr)].
@@ -33,7 +33,7 @@ inline constexpr double kFaintest = 1e-37;
 
 /// What a renderer made of a cell.
 struct Outcome {
-  std::array<RunningMean, 3> L;  // of replications
+  std::array<RunningMean, 3> L;  // of blocks, which are independent
   std::int64_t samples = 0;
   std::int64_t bad_samples = 0;  // NaN, infinite or negative
   std::uint64_t violations = 0;  // of majorants
@@ -42,7 +42,7 @@ struct Outcome {
 
 /// Renders `scene`, which is that of the cell or the one it is like, as the program does. Each cell
 /// has samples of its own.
-Outcome measure(const Cell& cell, const std::string& scene, int replications);
+Outcome measure(const Cell& cell, const std::string& scene, int blocks);
 
 /// The whole matrix.
 std::vector<Cell> all_cells();

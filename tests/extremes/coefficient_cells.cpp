@@ -64,7 +64,7 @@ void add_extinctions(std::vector<Cell>& cells) {
                                     environment()),
                      .central_ray = true,
                      .want = glm::dvec3(std::exp(-2.0 * sigma_t)),
-                     .replications = 1});
+                     .blocks = 1});
     cells.push_back(
         {.axis = "sigma_t, Beer-Lambert through a grid",
          .at = sigma_t,
@@ -133,7 +133,7 @@ void add_densities(std::vector<Cell>& cells) {
                                       environment()),
                        .central_ray = true,
                        .want = want,
-                       .replications = 4});
+                       .blocks = 4});
     }
   }
 }

@@ -99,7 +99,7 @@ void add_rooms(std::vector<Cell>& cells, const Placement& place) {
                           40),
            .write_files = write_boxes,
            .like = scene(inside + box("rectangles", place.to_world, wall) + fog(""), 40),
-           .replications = 128});
+           .blocks = 128});
 }
 
 void add_neighbours(std::vector<Cell>& cells, const Placement& place) {
@@ -122,7 +122,7 @@ void add_neighbours(std::vector<Cell>& cells, const Placement& place) {
              .write_files = write_boxes,
              .central_ray = true,
              .want = glm::dvec3(std::exp(-2.5)),
-             .replications = 1});
+             .blocks = 1});
 }
 
 }  // namespace

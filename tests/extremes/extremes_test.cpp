@@ -13,11 +13,11 @@ class Extreme : public ::testing::TestWithParam<Cell> {};
 
 TEST_P(Extreme, IsSoundAndRight) {
   const Cell& cell = GetParam();
-  const Outcome got = measure(cell, cell.scene, cell.replications);
+  const Outcome got = measure(cell, cell.scene, cell.blocks);
   EXPECT_EQ(got.bad_samples, 0);
   EXPECT_EQ(got.violations, 0u);
   Outcome like;
-  if (!cell.like.empty()) like = measure(cell, cell.like, cell.replications);
+  if (!cell.like.empty()) like = measure(cell, cell.like, cell.blocks);
   for (int c = 0; c < 3; ++c) {
     if (cell.want) {
       EXPECT_TRUE(agrees(got.L[c], (*cell.want)[c], cell.rounding * (*cell.want)[c] + kFaintest));

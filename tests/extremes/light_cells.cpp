@@ -67,7 +67,7 @@ std::vector<Cell> cells_of_lights() {
                      .central_ray = true,
                      .want = glm::dvec3(1.0),
                      .rounding = 1e-4,
-                     .replications = 1024});
+                     .blocks = 1024});
     cells.push_back({.axis = "width of a square light over its distance",
                      .at = r,
                      .name = "SquareLight" + at,
@@ -78,7 +78,7 @@ std::vector<Cell> cells_of_lights() {
                              : exponent > 2 && exponent <= 8 ? std::optional(glm::dvec3(1.0))
                                                              : std::nullopt,
                      .rounding = 1e-4,
-                     .replications = 1024});
+                     .blocks = 1024});
     const double radius = exponent <= 0 ? 0.9 * r : r, height = exponent <= 0 ? 1.0 : 1.5 * r;
     cells.push_back({.axis = "radius of a ball light over its distance",
                      .at = radius,
@@ -89,7 +89,7 @@ std::vector<Cell> cells_of_lights() {
                      .central_ray = true,
                      .want = glm::dvec3(1.0),
                      .rounding = 1e-4,
-                     .replications = 1024});
+                     .blocks = 1024});
     cells.push_back(
         {.axis = "distance of a point light",
          .at = r,
@@ -101,7 +101,7 @@ std::vector<Cell> cells_of_lights() {
          .central_ray = true,
          .want = glm::dvec3(1.0),
          .rounding = 1e-4,
-         .replications = 2});
+         .blocks = 2});
     // An enclosure that shines inward, with a ball of fog in its middle.
     cells.push_back(
         {.axis = "size of a furnace made of a ball light",
@@ -134,7 +134,7 @@ std::vector<Cell> cells_of_lights() {
                                     20),
                      .like = scene(lit(1.0, 1.0) + homogeneous(1, 0.8, 0), 20),
                      .rounding = 1e-4,
-                     .replications = 2048});
+                     .blocks = 2048});
     cells.push_back(
         {.axis = "sigma_t before a ball light",
          .at = sigma_t,
@@ -146,7 +146,7 @@ std::vector<Cell> cells_of_lights() {
          .central_ray = true,
          .want = sigma_t < 1e6 ? std::optional(glm::dvec3(std::exp(-1.0))) : std::nullopt,
          .rounding = 1e-5 + 2.4e-7 * sigma_t,
-         .replications = 1});
+         .blocks = 1});
     cells.push_back(
         {.axis = "sigma_t around a lamp seen from outside",
          .at = sigma_t,
@@ -154,7 +154,7 @@ std::vector<Cell> cells_of_lights() {
          .scene = scene(camera({.origin = {0, 0, -3}, .target = {0, 0, 0}}) +
                         sphere({0, 0, 0}, 0.1, area_emitter(1.0)) +
                         sphere({0, 0, 0}, 1, kNull + homogeneous(sigma_t, 0.99, 0, "interior"))),
-         .replications = 16});
+         .blocks = 16});
   }
 
   for (const double sigma_t : {0.1, 1.0, 10.0}) {
@@ -176,12 +176,12 @@ std::vector<Cell> cells_of_lights() {
                      .scene = ball(2),
                      .central_ray = true,
                      .want = glm::dvec3(scattered_once_at_most(sigma_t)),
-                     .replications = 1024});
+                     .blocks = 1024});
     cells.push_back({.axis = "max_depth 0",
                      .at = sigma_t,
                      .name = fmt::format("Nothing{}", int(10 * sigma_t)),
                      .scene = ball(0),
-                     .replications = 4});
+                     .blocks = 4});
   }
   return cells;
 }

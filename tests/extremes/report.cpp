@@ -19,11 +19,11 @@ int main(int argc, char** argv) {
   for (const Cell& cell : all_cells()) {
     if (cell.name.find(wanted) == std::string::npos) continue;
     const char* known = cell.want ? "value" : !cell.like.empty() ? "render" : "soundness";
-    const int replications = std::max(8, int(cell.replications * factor));
+    const int blocks = std::max(8, int(cell.blocks * factor));
     try {
-      const Outcome got = measure(cell, cell.scene, replications);
+      const Outcome got = measure(cell, cell.scene, blocks);
       std::array<RunningMean, 3> like;
-      if (!cell.like.empty()) like = measure(cell, cell.like, replications).L;
+      if (!cell.like.empty()) like = measure(cell, cell.like, blocks).L;
       for (int c = 0; c < 3; ++c) {
         const double want = cell.want ? (*cell.want)[c] : !cell.like.empty() ? like[c].mean() : NAN;
         const double error = std::hypot(got.L[c].standard_error(),

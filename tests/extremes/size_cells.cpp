@@ -64,7 +64,7 @@ std::vector<Cell> cells_of_size() {
                      .name = fmt::format("Size{}{}", exponent < 0 ? "m" : "", std::abs(exponent)),
                      .scene = size_scene(size, {0, 0, 0}),
                      .like = size_scene(1.0, {0, 0, 0}),
-                     .replications = 1024});
+                     .blocks = 1024});
   }
   for (const double offset : {1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7}) {
     cells.push_back({.axis = "offset from the origin, in sizes",
@@ -72,7 +72,7 @@ std::vector<Cell> cells_of_size() {
                      .name = fmt::format("Offset{:.0f}", offset),
                      .scene = size_scene(1.0, offset * glm::dvec3(1.0, -0.7, 0.4)),
                      .like = size_scene(1.0, {0, 0, 0}),
-                     .replications = 1024});
+                     .blocks = 1024});
     const glm::dvec3 center = offset * glm::dvec3(1.0, -0.7, 0.4);
     cells.push_back(
         {.axis = "offset from the origin, furnace",
@@ -88,7 +88,7 @@ std::vector<Cell> cells_of_size() {
                      .scene = scene(view_of(center) + absorbing_cube(center)),
                      .central_ray = true,
                      .want = glm::dvec3(std::exp(-2.0)),
-                     .replications = 1});
+                     .blocks = 1});
     const glm::dvec3 lo = center - glm::dvec3(50, 50, 0), hi = center + glm::dvec3(50, 50, 1);
     cells.push_back(
         {.axis = "offset from the origin, slab of albedo 0.9",
@@ -98,7 +98,7 @@ std::vector<Cell> cells_of_size() {
              camera({.origin = center + glm::dvec3(0, 0, -3), .target = center, .fov_deg = 1.0}) +
              cube(lo, hi, kNull + homogeneous(2, 0.9, 0, "interior")) + environment()),
          .want = glm::dvec3(kIsotropicSlab),
-         .replications = 1024});
+         .blocks = 1024});
   }
 
   // Where a wide scene holds a body far from its middle, floats lose its digits: a ray leaves a
@@ -113,7 +113,7 @@ std::vector<Cell> cells_of_size() {
          .central_ray = true,
          .want = glm::dvec3(std::exp(-2.0)),
          .rounding = 1e-5 + 3.5 * 0x1p-24 * offset,
-         .replications = 1});
+         .blocks = 1});
   }
   return cells;
 }

@@ -13,9 +13,9 @@
 namespace brume::test {
 namespace {
 
-constexpr int kSize = 8;            // [pixel]
-constexpr int kBlock = 2;           // [pixel]
-constexpr int kReplications = 200;  // of 16 samples
+constexpr int kSize = 8;           // [pixel]
+constexpr int kBlock = 2;          // [pixel]
+constexpr int kReplications = 50;  // of 64 samples
 
 struct MediumCase {
   std::string name;

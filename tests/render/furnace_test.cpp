@@ -16,8 +16,8 @@
 namespace brume::test {
 namespace {
 
-constexpr int kSize = 6;            // [pixel]
-constexpr int kReplications = 320;  // of 16 samples
+constexpr int kSize = 6;           // [pixel]
+constexpr int kReplications = 80;  // of 64 samples
 
 void write_files(const TemporaryFolder& folder) {
   folder.write("torus.obj", torus_obj(0.75, 0.4));

@@ -399,16 +399,16 @@ void PrintTo(const ReferenceScene& scene, std::ostream* out) {
 
 const std::vector<ReferenceScene>& reference_scenes() {
   static const std::vector<ReferenceScene> scenes = {
-      {"FoggyRoom", scene(kFoggyRoom, perspective("0.2, 0.3, 1.8", "0, -0.5, -1", 75, kSize)), 500},
-      {"GlassInFog", scene(kGlassInFog, thin_lens()), 500},
-      {"MetalsInSmoke", scene(kMetalsInSmoke, perspective("0, 0.6, 4", "0, 0, 0", 42, kSize)), 500},
-      {"SmallLights", scene(kSmallLights, orthographic()), 500},
-      {"CloudInFog", scene(kCloudInFog, perspective("0.1, 0.3, 1.7", "0, 0, 0", 80, kSize)), 500},
+      {"FoggyRoom", scene(kFoggyRoom, perspective("0.2, 0.3, 1.8", "0, -0.5, -1", 75, kSize)), 125},
+      {"GlassInFog", scene(kGlassInFog, thin_lens()), 125},
+      {"MetalsInSmoke", scene(kMetalsInSmoke, perspective("0, 0.6, 4", "0, 0, 0", 42, kSize)), 125},
+      {"SmallLights", scene(kSmallLights, orthographic()), 125},
+      {"CloudInFog", scene(kCloudInFog, perspective("0.1, 0.3, 1.7", "0, 0, 0", 80, kSize)), 125},
       {"StraightOrBack", scene(kStraightOrBack, perspective("0, 0.5, 4", "0, 0, 0", 38, kSize)),
-       500},
-      {"ShortPaths", scene(kShortPaths, perspective("0.3, 0.2, 4.5", "0, 0, 0", 38, kSize)), 500},
-      {"LampsInFog", scene(kLampsInFog, perspective("0.1, 0.2, 1.9", "0, 0, -1", 70, kSize)), 500},
-      {"AllLights", scene(kAllLights, perspective("0.3, 0.6, 4", "0, 0, 0", 38, kSize)), 500},
+       125},
+      {"ShortPaths", scene(kShortPaths, perspective("0.3, 0.2, 4.5", "0, 0, 0", 38, kSize)), 125},
+      {"LampsInFog", scene(kLampsInFog, perspective("0.1, 0.2, 1.9", "0, 0, -1", 70, kSize)), 125},
+      {"AllLights", scene(kAllLights, perspective("0.3, 0.6, 4", "0, 0, 0", 38, kSize)), 125},
   };
   return scenes;
 }

@@ -30,7 +30,7 @@ namespace brume::test {
 ///   AllLights       homogeneous, coloured      diffuse, plastic             all at once
 struct ReferenceScene {
   std::string name, xml;
-  int replications;  // of 16 samples that the reference integrator needs
+  int replications;  // of 64 samples that the reference integrator needs
 };
 void PrintTo(const ReferenceScene& scene, std::ostream* out);
 

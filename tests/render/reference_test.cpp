@@ -17,7 +17,7 @@ class TwoIntegrators : public ::testing::TestWithParam<ReferenceScene> {};
 
 TEST_P(TwoIntegrators, SeeTheSameLight) {
   const TestScene scene(GetParam().xml, write_reference_files);
-  const Rendered path = render_path(scene, 250);
+  const Rendered path = render_path(scene, 64);
   const Rendered reference = render_reference(scene, GetParam().replications);
   expect_same_picture(path, reference, 2, {kRed, kGreen, kBlue});
 

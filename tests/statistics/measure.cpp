@@ -53,7 +53,7 @@ std::vector<RunningMean> measure(const Experiment& experiment, const Tally& tall
 
   // The first pilot is too short for rare events, a sixteenth of the replications is not.
   constexpr double kAim = 0.85;
-  constexpr double kShortest = 1 << 10;
+  constexpr double kShortest = 1 << 8;
   const std::uint64_t seed = seed_of(experiment.xml);
   double replications = kShortest;
   for (std::uint64_t pilot = 0; pilot < 2; ++pilot) {

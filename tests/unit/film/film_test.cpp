@@ -66,8 +66,9 @@ INSTANTIATE_TEST_SUITE_P(Samples, FilmSpread,
                          ::testing::Values(SpreadCase{"independent_single", exponential, 7},
                                            SpreadCase{"independent_whole", exponential, 64},
                                            SpreadCase{"independent_partial", exponential, 69},
-                                           SpreadCase{"stratified_whole", smooth, 64},
-                                           SpreadCase{"stratified_many", smooth, 160}),
+                                           SpreadCase{"independent_many", exponential, 700},
+                                           SpreadCase{"stratified_whole", smooth, 512},
+                                           SpreadCase{"stratified_many", smooth, 704}),
                          [](const auto& test) { return test.param.name; });
 
 /// Share of trials whose mean lies within 1.96 standard errors of `truth`.
@@ -87,14 +88,16 @@ test::RunningMean coverage(const Draw& draw, double truth, std::uint32_t samples
 TEST(Film, StandardErrorCoversTheTruthAsOftenAsItSays) {
   // The means of 32 replications: a z-value follows Student's t with 31 degrees of freedom, which
   // lies within 1.96 in 94.1% of cases.
-  EXPECT_TRUE(test::agrees(coverage(smooth, 1.75, 512), 0.941, 0.003));
+  EXPECT_TRUE(test::agrees(coverage(smooth, 1.75, 2048), 0.941, 0.003));
 }
 
-TEST(Film, PartialReplicationNeverMakesTheErrorLookTooSmall) {
+TEST(Film, PartsOfAReplicationNeverMakeTheErrorLookTooSmall) {
   // Few of a replication's samples are worse than their share of it, and must be taken for that.
-  const test::RunningMean whole = coverage(smooth, 1.75, 160);
-  const test::RunningMean partial = coverage(smooth, 1.75, 168);
-  EXPECT_GT(partial.mean(), whole.mean() - test::kMaxZ * whole.standard_error());
+  const test::RunningMean whole = coverage(smooth, 1.75, 512);
+  for (const std::uint32_t partial : {16, 72, 128, 448, 520, 552}) {
+    const test::RunningMean covered = coverage(smooth, 1.75, partial);
+    EXPECT_GT(covered.mean(), whole.mean() - test::kMaxZ * whole.standard_error()) << partial;
+  }
 }
 
 TEST(Film, MeanCountsEverySampleOnce) {

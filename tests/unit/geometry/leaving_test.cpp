@@ -35,9 +35,9 @@ class Leaving : public ::testing::TestWithParam<Placement> {
         const Vec3 outward = glm::dot(d, hit->n) >= 0.0f ? d : -d;
         const Ray away = hit->leave(outward);
         if (queries.intersect(away, kInfinity)) ++found_again;
-        if (queries.is_occluded(away, kInfinity)) ++wrongly_occluded;
+        if (test::is_occluded(queries, away, kInfinity)) ++wrongly_occluded;
         const Ray inward = hit->leave(-outward);
-        if (!queries.is_occluded(inward, kInfinity)) ++wrongly_occluded;
+        if (!test::is_occluded(queries, inward, kInfinity)) ++wrongly_occluded;
         hit = queries.intersect(inward, kInfinity);
         if (!hit) ++escaped;
       }

@@ -21,9 +21,9 @@ TEST(RayQueries, FindsTheNearestShapeWithinTheSegment) {
   EXPECT_EQ(queries.intersect(ray, kInfinity)->shape, 1u);
   EXPECT_EQ(queries.intersect(ray, kInfinity)->t, 4.0f);
   EXPECT_FALSE(queries.intersect(ray, 4.0f));
-  EXPECT_FALSE(queries.is_occluded(ray, 4.0f));
+  EXPECT_FALSE(test::is_occluded(queries, ray, 4.0f));
   EXPECT_TRUE(queries.intersect(ray, 4.000001f));
-  EXPECT_TRUE(queries.is_occluded(ray, 4.000001f));
+  EXPECT_TRUE(test::is_occluded(queries, ray, 4.000001f));
   EXPECT_EQ(queries.intersect({{0, 0, 7}, {0, 0, 1}}, kInfinity)->shape, 0u);
   EXPECT_FALSE(queries.intersect({{0, 0, 12}, {0, 0, 1}}, kInfinity));
 }
@@ -104,8 +104,8 @@ TEST(RayQueries, SeesThingsFromFarAway) {
         EXPECT_NEAR(hit->p.x, xy.x, 1e-6f);
         EXPECT_NEAR(hit->p.y, xy.y, 1e-6f);
         const Ray ray{{xy.x, xy.y, distance}, {0, 0, -1}};
-        EXPECT_FALSE(queries.is_occluded(ray, hit->t * (1.0f - 2e-7f)));
-        EXPECT_TRUE(queries.is_occluded(ray, hit->t * (1.0f + 2e-7f)));
+        EXPECT_FALSE(test::is_occluded(queries, ray, hit->t * (1.0f - 2e-7f)));
+        EXPECT_TRUE(test::is_occluded(queries, ray, hit->t * (1.0f + 2e-7f)));
       }
     }
   }
@@ -159,10 +159,23 @@ TEST(RayQueries, AnswersTheSameInEveryThread) {
   for (auto& result : together) EXPECT_EQ(result.get(), alone);
 }
 
+TEST(RayQueries, TellsTheMostOfWhatStandsInTheWay) {
+  const auto at = [](float z) { return std::make_shared<Sphere>(Vec3(0, 0, z), 1.0f, false); };
+  const std::vector<test::ShapePtr> shapes{at(3.0f), at(6.0f), at(9.0f)};
+  const RayQueries queries(shapes, {true, false, true});
+  const Ray along{{0, 0, 0}, {0, 0, 1}}, back{{0, 0, 12}, {0, 0, -1}};
+  EXPECT_EQ(queries.obstacle(along, 1.9f), Obstacle::kNone);
+  EXPECT_EQ(queries.obstacle(along, 2.1f), Obstacle::kPassable);
+  EXPECT_EQ(queries.obstacle(along, 5.1f), Obstacle::kOpaque);
+  EXPECT_EQ(queries.obstacle(back, 4.9f), Obstacle::kPassable);
+  EXPECT_EQ(queries.obstacle(back, kInfinity), Obstacle::kOpaque);
+  EXPECT_EQ(queries.obstacle({{0, 0, 9}, {0, 0, 1}}, kInfinity), Obstacle::kPassable);
+}
+
 TEST(RayQueries, MovesWithItsOwner) {
   RayQueries queries = test::queries(std::make_shared<Sphere>(Vec3(0, 0, 5), 1.0f, false));
   RayQueries moved = std::move(queries);
-  EXPECT_TRUE(moved.is_occluded({{0, 0, 0}, {0, 0, 1}}, kInfinity));
+  EXPECT_TRUE(test::is_occluded(moved, {{0, 0, 0}, {0, 0, 1}}, kInfinity));
 }
 
 }  // namespace

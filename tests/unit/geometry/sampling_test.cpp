@@ -151,7 +151,8 @@ TEST(Area, IsTheAverageSilhouetteOfAConvexShape) {
       const Frame frame(sample_uniform_sphere(rng.next_vec2()));
       const Vec2 offset = kRadius * sample_disk(rng.next_vec2());
       const Vec3 o = frame.to_world(Vec3(offset.x, offset.y, -10.0f));
-      area.add(queries.is_occluded({o, frame.n}, kInfinity) ? 4.0 * M_PI * kRadius * kRadius : 0.0);
+      area.add(test::is_occluded(queries, {o, frame.n}, kInfinity) ? 4.0 * M_PI * kRadius * kRadius
+                                                                   : 0.0);
     }
     EXPECT_TRUE(test::agrees(area, shape->area()));
   }
@@ -169,7 +170,8 @@ TEST(Area, OfFlatShapesIsThatOfTheirOutline) {
     test::RunningMean area;
     for (int i = 0; i < 200000; ++i) {
       const Vec2 xy = 4.0f * rng.next_vec2() - 2.0f;
-      area.add(queries.is_occluded({{xy.x, xy.y, 1.0f}, {0, 0, -1}}, kInfinity) ? 16.0 : 0.0);
+      area.add(test::is_occluded(queries, {{xy.x, xy.y, 1.0f}, {0, 0, -1}}, kInfinity) ? 16.0
+                                                                                       : 0.0);
     }
     EXPECT_TRUE(test::agrees(area, shape->area()));
   }

@@ -25,6 +25,11 @@ inline RayQueries queries(const ShapePtr& shape) {
   return RayQueries(std::vector<ShapePtr>{shape});
 }
 
+/// Whether anything lies along `ray` in (0, t_max).
+inline bool is_occluded(const RayQueries& queries, const Ray& ray, float t_max) {
+  return queries.obstacle(ray, t_max) != Obstacle::kNone;
+}
+
 /// Sphere of triangles around the origin with corners on the unit sphere; every round of
 /// subdivision makes four triangles of one.
 inline MeshData sphere_mesh(int rounds) {

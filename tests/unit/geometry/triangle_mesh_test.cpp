@@ -24,7 +24,7 @@ TEST(TriangleMesh, LetsNoRayThroughItsEdgesAndCorners) {
     const Vec3 from = 0.9f * rng.next_float() * sample_uniform_sphere(rng.next_vec2());
     const Vec3 d = glm::normalize((1.0f - u) * a + u * b - from);
     if (!queries.intersect({from, d}, kInfinity)) ++missed;
-    if (!queries.is_occluded({from, d}, kInfinity)) ++missed;
+    if (!test::is_occluded(queries, {from, d}, kInfinity)) ++missed;
   }
   EXPECT_EQ(missed, 0);
 }

@@ -79,7 +79,8 @@ TEST_P(AreaLightOfSize, ShadowRayEndsInFrontOfTheLight) {
       const auto light_sample = light.sample(p, rng.next_vec2());
       if (!light_sample) continue;
       ++lit;
-      ASSERT_FALSE(queries.is_occluded({p, light_sample->d}, light_sample->distance)) << away;
+      ASSERT_EQ(queries.obstacle({p, light_sample->d}, light_sample->distance), Obstacle::kNone)
+          << away;
       if (const auto hit = queries.intersect({p, light_sample->d}, kInfinity)) {
         ++found;
         ASSERT_EQ(light.radiance(*hit, light_sample->d), Rgb(1.0f));

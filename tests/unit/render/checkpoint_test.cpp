@@ -59,10 +59,10 @@ TEST_F(CheckpointTest, AFilmGoesOnAsIfNothingHadBeen) {
   Film whole(kWidth, kHeight, kLayers), first(kWidth, kHeight, kLayers);
   expose(whole, 0, 100);
   expose(first, 0, 41);
-  write_checkpoint(path(), fingerprint_, {.replications = 3, .seconds = 1.5}, first);
+  write_checkpoint(path(), fingerprint_, {.blocks = 3, .seconds = 1.5}, first);
   Film second(kWidth, kHeight, kLayers);
   const RenderState state = read_checkpoint(path(), fingerprint_, second);
-  EXPECT_EQ(state.replications, 3u);
+  EXPECT_EQ(state.blocks, 3u);
   EXPECT_EQ(state.seconds, 1.5);
   EXPECT_EQ(second.drawn(2, 1), 41u);
   EXPECT_EQ(second.samples(2, 1), 40u);
@@ -90,7 +90,7 @@ TEST_F(CheckpointTest, AnotherRenderIsRefusedWithWhatDiffers) {
 TEST_F(CheckpointTest, NoDamageGoesUnnoticed) {
   Film film(kWidth, kHeight, kLayers);
   expose(film, 0, 20);
-  write_checkpoint(path(), fingerprint_, {.replications = 2}, film);
+  write_checkpoint(path(), fingerprint_, {.blocks = 2}, film);
   const std::string whole = bytes();
   EXPECT_EQ(complaint(whole, fingerprint_), "");
   for (std::size_t length = 0; length < whole.size(); length += 1 + length / 20)

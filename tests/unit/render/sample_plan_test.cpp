@@ -39,18 +39,18 @@ std::unique_ptr<const Film> rendered(std::uint64_t seed, const RenderSettings& s
 }
 
 TEST(SamplePlan, RoundsGrowByAnEighth) {
-  std::uint32_t replications = 0;
+  std::uint32_t blocks = 0;
   for (const std::uint32_t want : {1u,  2u,  3u,  4u,  5u,  6u,  7u,  8u,  9u,  10u, 11u,
                                    12u, 13u, 14u, 15u, 16u, 18u, 20u, 22u, 24u, 27u})
-    EXPECT_EQ(replications = next_round(replications), want);
+    EXPECT_EQ(blocks = next_round(blocks), want);
   for (int i = 0; i < 400; ++i) {
-    const std::uint32_t next = next_round(replications);
-    EXPECT_LE(next, replications + std::max(replications / 8, 1u));
-    EXPECT_GE(next, replications);
-    replications = next;
+    const std::uint32_t next = next_round(blocks);
+    EXPECT_LE(next, blocks + std::max(blocks / 8, 1u));
+    EXPECT_GE(next, blocks);
+    blocks = next;
   }
-  EXPECT_EQ(next_round(replications), replications);  // the last sample index
-  EXPECT_GT(std::uint64_t(even_plan(replications).even), 4'000'000'000u);
+  EXPECT_EQ(next_round(blocks), blocks);  // the last sample index
+  EXPECT_GT(std::uint64_t(even_plan(blocks).even), 4'000'000'000u);
 }
 
 TEST(SamplePlan, NoisyPixelsGetMoreAndNoneIsForgotten) {
@@ -82,11 +82,11 @@ TEST(SamplePlan, APixelsOwnSamplesDoNotDecideForIt) {
     if (x != 20 || y != 15) return flat(x, y, index);
     return CameraSample{.L = Rgb(Sampler(1, 7, index).next_1d() < 0.1f ? 1e3f : 0.0f)};
   };
-  constexpr std::uint32_t kReplications = 4;
+  constexpr std::uint32_t kBlocks = 4;
   const auto plan_after_one_round = [&](const SampleFunction& sample) {
     Film film(kWidth, kHeight, {.guide = true});
-    render(sample, {.spp = Sampler::kReplication}, film);
-    return adaptive_plan(film, kReplications);
+    render(sample, {.spp = Sampler::kBlock}, film);
+    return adaptive_plan(film, kBlocks);
   };
   const SamplePlan without = plan_after_one_round(flat), with = plan_after_one_round(with_spike);
   const auto at = [](std::uint32_t x, std::uint32_t y) { return std::size_t(y) * kWidth + x; };
@@ -100,10 +100,9 @@ TEST(SamplePlan, AQuietPictureIsSampledEvenly) {
   Film film(9, 7, {.guide = true});
   render([](std::uint32_t, std::uint32_t, std::uint32_t) { return CameraSample{.L = Rgb(1.0f)}; },
          {.spp = 32}, film);
-  for (const std::uint32_t replications : {1u, 2u, 50u}) {
-    const SamplePlan plan = adaptive_plan(film, replications);
-    for (std::size_t i = 0; i < 9 * 7; ++i)
-      EXPECT_EQ(plan.samples(i), replications * Sampler::kReplication);
+  for (const std::uint32_t blocks : {1u, 2u, 50u}) {
+    const SamplePlan plan = adaptive_plan(film, blocks);
+    for (std::size_t i = 0; i < 9 * 7; ++i) EXPECT_EQ(plan.samples(i), blocks * Sampler::kBlock);
   }
 }
 
