@@ -5,14 +5,13 @@ picture cost and how good it became.
 
     scripts/bench.py --brume build/release/bin/brume --out docs/performance [--scene NAME]...
 
-Efficiency is 1 / (MSE x user seconds of rendering). MSE is the relative mean square error that the
-pictures' own standard errors state, averaged over rounds with different seeds; one picture of each
-scene is held against a picture with 16 times its samples, as a check on that. Both configurations
-get the seconds that loading takes subtracted. Needs nothing but Python's standard library.
+Efficiency is 1 / (MSE x user seconds of rendering). MSE is relative to the squared mean radiance and
+comes from the differences between pictures of different seeds. Both configurations get the seconds
+that loading takes subtracted. Needs nothing but Python's standard library.
 """
 import argparse
+import itertools
 import json
-import math
 import os
 import pathlib
 import platform
@@ -75,59 +74,53 @@ def scenes(folder, procedural_size):
 
 
 class Cost:
-    """Sums over rounds of one configuration."""
+    """Sums over rounds of one configuration, whose pictures are kept."""
 
-    def __init__(self):
-        self.seconds = self.variance = self.rounds = self.samples = 0.0
-        self.memory = 0.0
+    def __init__(self, brume, name, folder, spp, settings):
+        self.brume, self.name, self.folder = brume, name, folder
+        self.spp, self.settings = spp, settings
+        self.seconds = self.memory = 0.0
+        self.pictures = []
 
-    def add(self, seconds, statistics, memory, spp):
-        self.seconds += seconds
-        self.samples += spp
-        self.variance += spp * statistics["relative_rms_error"] ** 2
-        self.rounds += 1
+    def add_round(self, arguments):
+        seed = len(self.pictures)
+        loading, _, _ = run(self.brume, [*arguments, "--max-depth", "1"], self.folder, 1, seed,
+                            self.settings)
+        seconds, _, memory = run(self.brume, arguments, self.folder, self.spp, seed, self.settings)
+        self.seconds += max(seconds - loading, 1e-3)
         self.memory = max(self.memory, memory)
+        self.pictures.append(self.folder / f"{self.name}_{seed}.exr")
+        (self.folder / "picture.exr").rename(self.pictures[-1])
 
     def seconds_per_spp(self):
-        return self.seconds / self.samples
+        return self.seconds / (len(self.pictures) * self.spp)
 
-    def mse_per_spp(self):
-        return self.variance / self.rounds
-
-    def efficiency(self):
-        return 1.0 / (self.seconds_per_spp() * self.mse_per_spp())
+    def mse_times_spp(self):
+        """Two pictures of independent errors differ by twice the MSE of either."""
+        squares = []
+        for a, b in itertools.combinations(self.pictures, 2):
+            subprocess.run([self.brume, "compare", a, b, "--json", self.folder / "compare.json"],
+                           check=True, stdout=subprocess.DEVNULL)
+            comparison = json.loads((self.folder / "compare.json").read_text())
+            squares.append(0.5 * comparison["relative_rmse"] ** 2)
+        return self.spp * sum(squares) / len(squares)
 
 
 def measure(brume, arguments, folder, spp, textbook_spp, rounds):
-    fast, textbook = Cost(), Cost()
-    for seed in range(rounds):
-        for cost, count, settings in ((fast, spp, ()), (textbook, textbook_spp, ("textbook",))):
-            loading, _, _ = run(brume, [*arguments, "--max-depth", "1"], folder, 1, seed, settings)
-            seconds, statistics, memory = run(brume, arguments, folder, count, seed, settings)
-            cost.add(max(seconds - loading, 1e-3), statistics, memory, count)
+    fast = Cost(brume, "fast", folder, spp, ())
+    textbook = Cost(brume, "textbook", folder, textbook_spp, ("textbook",))
+    for _ in range(rounds):
+        for cost in (fast, textbook):
+            cost.add_round(arguments)
     return fast, textbook
-
-
-def check_error(brume, arguments, folder, spp):
-    """RMSE against a picture of 16 times the samples, over what the standard errors of both say."""
-    _, many, _ = run(brume, arguments, folder, 16 * spp, 1000)
-    (folder / "picture.exr").rename(folder / "reference.exr")
-    _, few, _ = run(brume, arguments, folder, spp, 2000)
-    subprocess.run([brume, "compare", folder / "picture.exr", folder / "reference.exr", "--json",
-                    folder / "compare.json"], check=True, stdout=subprocess.DEVNULL)
-    comparison = json.loads((folder / "compare.json").read_text())
-    expected = math.hypot(many["relative_rms_error"], few["relative_rms_error"])
-    mean = sum(comparison["reference_mean"]) / len(comparison["reference_mean"])
-    return comparison["rmse"] / mean / expected
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("--brume", default=str(ROOT / "build/release/bin/brume"))
     parser.add_argument("--scene", action="append", help="only this one; may be repeated")
-    parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--rounds", type=int, default=4)
     parser.add_argument("--procedural", type=int, default=512, help="voxels a side; 0: none")
-    parser.add_argument("--check", action="store_true", help="also check the stated errors")
     parser.add_argument("--out", help="write OUT.md and OUT.svg")
     options = parser.parse_args()
 
@@ -143,15 +136,14 @@ def main():
                                      options.rounds)
             width, pixels = map(int, str(arguments[arguments.index("--size") + 1]).split("x"))
             micro = 1e6 / (width * pixels)
-            ratio = fast.efficiency() / textbook.efficiency()
+            mse, textbook_mse = fast.mse_times_spp(), textbook.mse_times_spp()
+            ratio = (textbook.seconds_per_spp() * textbook_mse
+                     / (fast.seconds_per_spp() * mse))
             rows.append((scene, ratio))
             lines.append(f"| {scene} | {micro * fast.seconds_per_spp():.2f} "
-                         f"| {micro * textbook.seconds_per_spp():.2f} | {fast.mse_per_spp():.3g} "
-                         f"| {textbook.mse_per_spp():.3g} | {fast.memory:.0f} | {ratio:.1f} |")
+                         f"| {micro * textbook.seconds_per_spp():.2f} | {mse:.3g} "
+                         f"| {textbook_mse:.3g} | {fast.memory:.0f} | {ratio:.1f} |")
             print(lines[-1], flush=True)
-            if options.check:
-                print(f"  RMSE over stated error: "
-                      f"{check_error(options.brume, arguments, folder, spp):.2f}", flush=True)
     print("\n".join(lines))
     print(f"{platform.machine()}, {os.cpu_count()} processors")
     if options.out:
