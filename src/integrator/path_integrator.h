@@ -25,6 +25,8 @@ class PathIntegrator {
  private:
   struct Path;
 
+  /// Follows a path from the camera, in `medium`, until it leaves the scene or ends. What stands
+  /// behind everything is not part of what it gathers.
   Path trace(const CameraRay& camera_ray, const Medium* medium, Sampler& sampler) const;
 
   /// Roughly the radiance of light that scattered on its way to the camera, as luminance
