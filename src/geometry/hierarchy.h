@@ -39,7 +39,7 @@ class Hierarchy {
     /// First crossing for t in (0, t_max].
     virtual std::optional<Crossing> intersect(std::uint32_t item, const PreciseRay& ray,
                                               double t_max) const = 0;
-    /// What light meets that needs only know whether there is any.
+    /// What the item is to a ray of light, for t in (0, t_max].
     virtual Obstacle obstacle(std::uint32_t item, const PreciseRay& ray, double t_max) const = 0;
   };
 
