@@ -11,12 +11,15 @@ namespace brume {
 /// Does one thing after the other, whatever becomes of those before.
 class Attempts {
  public:
+  /// Whether it succeeded.
   template <class Action>
-  void attempt(const Action& action) {
+  bool attempt(const Action& action) {
     try {
       action();
+      return true;
     } catch (const Error& error) {
       failures_.emplace_back(error.what());
+      return false;
     }
   }
 

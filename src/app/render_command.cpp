@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cmath>
@@ -106,6 +107,12 @@ void warn_of_bad_samples(const RenderStatistics& s) {
              s.bad_samples->count, s.bad_samples->x, s.bad_samples->y);
 }
 
+/// Where a picture goes that cannot be written to `output`, so that it is not lost.
+std::string rescue_path(const std::string& output) {
+  const std::string stem = std::filesystem::path(output).stem();
+  return std::filesystem::temp_directory_path() / fmt::format("{}-{}.exr", stem, ::getpid());
+}
+
 /// The layers that were asked for, and what adaptive sampling needs: now, or in a later run.
 FilmLayers film_layers(const RenderOptions& options, const LoadedScene& loaded) {
   FilmLayers layers{.guide = options.is_adaptive() || options.keeps_checkpoint()};
@@ -156,13 +163,18 @@ int run_render(const RenderOptions& options) {
                                     .error = picture_error(film),
                                     .bad_samples = film.bad_samples()};
   Attempts attempts;
-  attempts.attempt([&] { checkpoint.save(result.state); });
+  bool is_saved =
+      attempts.attempt([&] { checkpoint.save(result.state); }) && options.keeps_checkpoint();
   const Image image = develop(film);
+  const Metadata data = metadata(statistics, options, loaded.path);
   const ToneMapping tone_mapping{.exposure = options.exposure, .alpha = loaded.path.hide_emitters};
   for (const std::string& output : outputs)
-    attempts.attempt([&] {
-      write_image(output, image, metadata(statistics, options, loaded.path), tone_mapping);
-    });
+    is_saved |= attempts.attempt([&] { write_image(output, image, data, tone_mapping); });
+  if (!is_saved) {
+    const std::string path = rescue_path(outputs.front());
+    if (attempts.attempt([&] { write_image(path, image, data); }))
+      fmt::print(stderr, "brume: what was rendered is in {}\n", path);
+  }
   if (!options.statistics_path.empty())
     attempts.attempt([&] { write_statistics(options.statistics_path, statistics); });
   attempts.check();

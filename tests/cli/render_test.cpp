@@ -220,6 +220,27 @@ TEST_F(RenderCommand, CtrlCSavesWhatWasRendered) {
   }
 }
 
+TEST_F(RenderCommand, APictureThatCannotBeWrittenIsKeptElsewhere) {
+  write_long_scene();
+  std::filesystem::create_directory(path("out"));
+  std::filesystem::create_directory(path("temporary"));
+  ::setenv("TMPDIR", path("temporary").c_str(), 1);
+  const Ended ended = run_brume({.arguments = {"render", "long.xml", "-o", "out/cut.exr"},
+                                 .folder = path(""),
+                                 .when_listening = [this](pid_t pid) {
+                                   std::filesystem::remove_all(path("out"));
+                                   ::usleep(300'000);
+                                   ::kill(pid, SIGINT);
+                                 }});
+  ::unsetenv("TMPDIR");
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_THAT(ended.err, HasSubstr("out/cut.exr: cannot be written"));
+  const std::filesystem::directory_iterator kept(path("temporary"));
+  ASSERT_NE(kept, std::filesystem::directory_iterator{});
+  EXPECT_THAT(ended.err, HasSubstr("what was rendered is in " + kept->path().string()));
+  EXPECT_GT(read("temporary/" + kept->path().filename().string()).pixels[0], 0.0f);
+}
+
 TEST_F(RenderCommand, AnOlderPictureStaysUntilTheNewOneIsWhole) {
   write("scene.exr", "an older picture");
   write_long_scene();
