@@ -64,6 +64,14 @@ void drain(int terminal, std::string& text) {
 
 }  // namespace
 
+bool has_terminals() {
+  int main_end = -1, program_end = -1;
+  if (::openpty(&main_end, &program_end, nullptr, nullptr, nullptr) != 0) return false;
+  ::close(main_end);
+  ::close(program_end);
+  return true;
+}
+
 Ended run_brume(const ProgramRun& run) {
   const TemporaryFolder streams;
   const auto create = [&](const char* name) {

@@ -21,6 +21,9 @@ struct Ended {
 /// Where the program writes its progress.
 enum class ErrorStream { kFile, kTerminal };
 
+/// Whether the machine hands out terminals; some containers do not.
+bool has_terminals();
+
 struct ProgramRun {
   std::vector<std::string> arguments;
   std::filesystem::path folder;  // the current one

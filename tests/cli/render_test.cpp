@@ -127,6 +127,7 @@ TEST_F(RenderCommand, AnUnknownErrorIsNullInJson) {
 
 TEST_F(RenderCommand, QuietWritesThePictureAndNothingElse) {
   for (const bool on_terminal : {false, true}) {
+    if (on_terminal && !has_terminals()) GTEST_SKIP() << "no terminal to be had here";
     const std::vector<std::string> words{"render", "scene.xml", "--quiet"};
     const Ended ended = on_terminal ? run_on_terminal(words) : run(words);
     EXPECT_EQ(ended.exit_code, 0);
@@ -149,6 +150,7 @@ TEST_F(RenderCommand, ProgressIsPlainLinesInAFileAndABarOnATerminal) {
   EXPECT_THAT(in_file.err, Not(HasSubstr("\r")));
   EXPECT_THAT(in_file.err, Not(HasSubstr("\x1b")));
 
+  if (!has_terminals()) GTEST_SKIP() << "no terminal to be had here";
   const Ended on_terminal = run_on_terminal({"render", "scene.xml"});
   EXPECT_THAT(on_terminal.err, HasSubstr("\r100%  [=============================]  4/4 spp"));
   EXPECT_THAT(on_terminal.err, ::testing::EndsWith("\x1b[K\r\n"));
