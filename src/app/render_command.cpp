@@ -107,10 +107,12 @@ void warn_of_bad_samples(const RenderStatistics& s) {
              s.bad_samples->count, s.bad_samples->x, s.bad_samples->y);
 }
 
-/// Where a picture goes that cannot be written to `output`, so that it is not lost.
+/// Where a picture goes that cannot be written to `output`, so that it is not lost: among the
+/// temporary files or, where there is no place for them, into the current folder.
 std::string rescue_path(const std::string& output) {
   const std::string stem = std::filesystem::path(output).stem();
-  return std::filesystem::temp_directory_path() / fmt::format("{}-{}.exr", stem, ::getpid());
+  std::error_code ignored;
+  return std::filesystem::temp_directory_path(ignored) / fmt::format("{}-{}.exr", stem, ::getpid());
 }
 
 /// The layers that were asked for, and what adaptive sampling needs: now, or in a later run.

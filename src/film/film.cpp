@@ -9,8 +9,8 @@
 namespace brume {
 namespace {
 
-/// Fewer say too little about their own spread. Four would do, but replications have the choice to
-/// wait, as blocks still serve.
+/// Fewer say too little about their own spread. Replications may wait for more of them, as blocks
+/// serve until then.
 constexpr std::uint32_t kMinBlocks = 4, kMinReplications = 8;
 
 /// A chromatic estimate of opacity may lie outside [0, 1]; only its mean may not.
