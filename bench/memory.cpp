@@ -120,8 +120,8 @@ void count(benchmark::State& state) {
 }
 
 /// The flights themselves, 256 after each other and those so many times in a row: the second time
-/// costs what a flight costs whose cells and voxels are at hand. The branches of 256 flights are too
-/// many for the processor to remember.
+/// costs what a flight costs whose cells and voxels are at hand. The branches of 256 flights are
+/// too many for the processor to remember.
 void flights(benchmark::State& state) {
   constexpr std::size_t kGroup = 256;
   static_assert(kFlights % kGroup == 0);

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "light/importance.h"
+
 namespace brume {
 namespace {
 
@@ -48,52 +50,69 @@ struct EquiangularPoints {
 
 }  // namespace
 
-SegmentLighting::SegmentLighting(const LightSet& lights, const Segment& segment)
-    : lights_(lights), segment_(segment) {
-  if (!segment.seeks_lights || lights.lights_with_pivot().empty()) return;
-  const auto here = segment.medium->scattering_at(segment.ray, 0.0f, segment.beta);
-  if (!here || is_black(here->value) || here->phase.is_delta()) return;
-  scattering_here_ = max_component(segment.beta * here->value);
-  for (const std::size_t light : lights.lights_with_pivot()) {
-    const float computed = compute_weight(light);
-    if (light < kept_weights_.size()) kept_weights_[light] = computed;
-    total_weight_ += computed;
+struct SegmentLighting::Weights {
+  const SegmentLighting& of;
+
+  float operator()(std::size_t light) const {
+    if (light >= of.kept_.size()) return weight(light);
+    float& kept = of.kept_[light];
+    if (kept < 0.0f) kept = weight(light);
+    return kept;
   }
-  if (!(total_weight_ > 0.0f)) return;
-  // Half of the attention at most, and none to what the lights without a place do better.
-  const float others = lights.importance_without_pivot();
-  p_near_ = 0.5f * total_weight_ / (total_weight_ + others);
+  std::optional<float> operator()(const Light::Pivot& cluster) const {
+    const float t = nearest(Foot(cluster, of.segment_));
+    const auto importance = importance_as_one(cluster, of.segment_.ray.at(t), 1.0f);
+    if (!importance) return std::nullopt;
+    return *importance * share_left(t);
+  }
+
+ private:
+  float weight(std::size_t index) const {
+    const Light& light = of.lights_.light(index);
+    const Foot foot(*light.pivot(), of.segment_);
+    if (!(foot.height > 0.0)) return 0.0f;
+    const float t = nearest(foot);
+    return light.importance(of.segment_.ray.at(t)) * share_left(t);
+  }
+  float nearest(const Foot& foot) const {
+    return float(std::clamp(foot.t, 0.0, double(of.segment_.t_end)));
+  }
+  /// Of what would scatter at the segment's begin, what still does at `t`.
+  float share_left(float t) const {
+    const Segment& segment = of.segment_;
+    const auto there = segment.medium->scattering_at(segment.ray, t, segment.beta);
+    const float share = max_component(segment.beta * there->value) / of.scattering_here_;
+    return std::isfinite(share) ? share : 0.0f;
+  }
+};
+
+SegmentLighting::Weights SegmentLighting::weights() const {
+  return {*this};
 }
 
-float SegmentLighting::compute_weight(std::size_t light) const {
-  const Foot foot(*lights_.light(light).pivot(), segment_);
-  if (!(foot.height > 0.0)) return 0.0f;
-  const float t = float(std::clamp(foot.t, 0.0, double(segment_.t_end)));
-  const auto there = segment_.medium->scattering_at(segment_.ray, t, segment_.beta);
-  const float T = max_component(segment_.beta * there->value) / scattering_here_;
-  return lights_.light(light).importance(segment_.ray.at(t)) * (std::isfinite(T) ? T : 0.0f);
+SegmentLighting::SegmentLighting(const LightSet& lights, const Segment& segment)
+    : lights_(lights), segment_(segment) {
+  if (!segment.seeks_lights || lights.lights_with_pivot().size() == 0) return;
+  const auto here = segment.medium->scattering_at(segment.ray, 0.0f, segment.beta);
+  if (!here || is_black(here->value) || here->phase.is_delta()) return;
+  kept_.fill(-1.0f);
+  scattering_here_ = max_component(segment.beta * here->value);
+  const float total = lights.lights_with_pivot().total_weight(weights());
+  if (!(total > 0.0f)) return;
+  odds_ = {.per_weight = 1.0f / total};
+  // Half of the attention at most, and none to what the lights without a place do better.
+  p_near_ = 0.5f * total / (total + lights.importance_without_pivot());
 }
 
 SegmentLighting::Point SegmentLighting::sample(float u_choice, float u) const {
-  std::size_t chosen = 0;
-  float p_chosen = 0.0f;
-  float remaining = u_choice;
-  for (const std::size_t light : lights_.lights_with_pivot()) {
-    const float p = weight(light) / total_weight_;
-    if (p > 0.0f) {
-      chosen = light;
-      p_chosen = p;
-    }
-    remaining -= p;
-    if (remaining < 0.0f) break;
-  }
+  const auto [chosen, p_chosen] = lights_.lights_with_pivot().sample(weights(), odds_, u_choice);
   const EquiangularPoints points(*lights_.light(chosen).pivot(), segment_);
   const float t = std::clamp(float(points.t(u)), 0.0f, segment_.t_end);
   return {.light = chosen, .t = t, .pdf = p_chosen * float(points.pdf(t))};
 }
 
 float SegmentLighting::pdf(std::size_t light, float t) const {
-  const float p = weight(light) / total_weight_;
+  const float p = lights_.lights_with_pivot().probability(weights(), odds_, light);
   return p > 0.0f ? p * float(EquiangularPoints(*lights_.light(light).pivot(), segment_).pdf(t))
                   : 0.0f;
 }
@@ -101,7 +120,7 @@ float SegmentLighting::pdf(std::size_t light, float t) const {
 float SegmentLighting::choice(std::size_t light, float t, float p_choice) const {
   if (!(p_near_ > 0.0f)) return p_choice;
   const float at_end = (1.0f - p_near_) * p_choice;
-  if (!lights_.has_pivot(light)) return at_end;
+  if (!lights_.lights_with_pivot().contains(light)) return at_end;
   const auto scattering = segment_.medium->scattering_at(segment_.ray, t, segment_.beta);
   return at_end + p_near_ * pdf(light, t) / scattering->pdf;
 }

@@ -47,17 +47,17 @@ class SegmentLighting {
   float choice(std::size_t light, float t, float p_choice) const;
 
  private:
-  float weight(std::size_t light) const {
-    return light < kept_weights_.size() ? kept_weights_[light] : compute_weight(light);
-  }
-  float compute_weight(std::size_t light) const;
+  /// What lights are worth where the segment passes them.
+  struct Weights;
+  Weights weights() const;
 
   const LightSet& lights_;
   const Segment& segment_;
   float p_near_ = 0.0f;
+  LightTree::Odds odds_{};
   float scattering_here_ = 0.0f;  // at the segment's begin, of its throughput [1/unit]
-  float total_weight_ = 0.0f;
-  std::array<float, 8> kept_weights_;  // [light]; the first lights' are asked for again
+  /// [light]; the first lights' weights are asked for again, negative before.
+  mutable std::array<float, 16> kept_;
 };
 
 }  // namespace brume

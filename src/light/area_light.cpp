@@ -47,7 +47,9 @@ float AreaLight::importance(const Vec3& p) const {
 }
 
 std::optional<Light::Pivot> AreaLight::pivot() const {
-  return Pivot{.center = center_, .radius = radius_};
+  return Pivot{.center = center_,
+               .radius = radius_,
+               .intensity = finite(luminance(radiance_) * kPi * radius_ * radius_)};
 }
 
 }  // namespace brume

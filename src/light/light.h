@@ -28,10 +28,12 @@ class Light {
   /// only where no light can arrive. It guides the choice among lights.
   virtual float importance(const Vec3& p) const = 0;
 
-  /// Where the light is, for choosing points along a ray that are near to it.
+  /// Where the light is and how bright, for choosing points along a ray that are near to it, and
+  /// for taking many lights for one.
   struct Pivot {
-    Vec3 center;   // [unit]
-    float radius;  // of the light around it, roughly [unit]
+    Vec3 center;      // [unit]
+    float radius;     // of the light around it, roughly [unit]
+    float intensity;  // the importance far away, times squared distance, where it is largest [W]
   };
   /// Nothing for light from infinitely far away.
   virtual std::optional<Pivot> pivot() const { return std::nullopt; }

@@ -7,14 +7,15 @@
 #include "core/ray.h"
 #include "light/environment_light.h"
 #include "light/light.h"
+#include "light/light_tree.h"
 
 namespace brume {
 
 /// All lights of a scene, and the choice among them.
 ///
-/// Lights are chosen mostly by `Light::importance`, and with some probability uniformly, because
-/// what stands in between is not known. An environment whose importance is 0 is left to the paths
-/// that leave the scene.
+/// Lights are chosen mostly by `Light::importance`, many of them cluster by cluster, and with some
+/// probability uniformly, because what stands in between is not known. An environment whose
+/// importance is 0 is left to the paths that leave the scene.
 ///
 /// Environments overlap: the sun's disk stands before the sky. They are treated as one technique
 /// that draws from the mixture of their densities and sees the sum of their radiances, so a
@@ -50,24 +51,25 @@ class LightSet {
   /// Light number `index`, which is not an environment.
   const Light& light(std::size_t index) const { return *lights_[index]; }
   /// The lights that have a pivot.
-  const std::vector<std::size_t>& lights_with_pivot() const { return with_pivot_; }
-  bool has_pivot(std::size_t index) const {
-    return index < lights_.size() && lights_[index]->pivot().has_value();
-  }
+  const LightTree& lights_with_pivot() const { return with_pivot_; }
   /// Sum of the importance of the others, which is the same everywhere.
   float importance_without_pivot() const { return importance_without_pivot_; }
 
  private:
+  /// What the lights with a pivot are worth at `p`.
+  struct ImportanceAt;
+  LightTree::Odds odds_at(const Vec3& p) const;
   bool may_choose(std::size_t index) const;
-  float importance(const Vec3& p, std::size_t index) const;
-  float total_importance(const Vec3& p) const;
-  float probability(float importance, float total) const;
+  /// Of a light without a pivot.
+  float probability(const LightTree::Odds& odds, std::size_t index) const {
+    return may_choose(index) ? odds.each + odds.per_weight * far_importance_[index] : 0.0f;
+  }
 
   std::vector<std::shared_ptr<const Light>> lights_;
   std::vector<std::shared_ptr<const EnvironmentLight>> environments_;
-  std::vector<std::size_t> choices_;     // the lights that `sample` may choose
-  std::vector<std::size_t> with_pivot_;  // indices in lights_
-  std::vector<float> far_importance_;    // [light] of those without a pivot, 0 for the others
+  LightTree with_pivot_;
+  std::vector<std::size_t> far_choices_;  // the others that `sample` may choose
+  std::vector<float> far_importance_;     // [light] of those without a pivot, 0 for the others
   float importance_without_pivot_ = 0.0f;
 };
 

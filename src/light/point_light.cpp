@@ -20,7 +20,7 @@ float PointLight::importance(const Vec3& p) const {
 }
 
 std::optional<Light::Pivot> PointLight::pivot() const {
-  return Pivot{.center = position_, .radius = 0.0f};
+  return Pivot{.center = position_, .radius = 0.0f, .intensity = finite(luminance(intensity_))};
 }
 
 }  // namespace brume

@@ -46,7 +46,7 @@ float SpotLight::importance(const Vec3& p) const {
 }
 
 std::optional<Light::Pivot> SpotLight::pivot() const {
-  return Pivot{.center = position_, .radius = 0.0f};
+  return Pivot{.center = position_, .radius = 0.0f, .intensity = finite(luminance(intensity_))};
 }
 
 }  // namespace brume

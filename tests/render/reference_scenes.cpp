@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/reference_scenes.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <ostream>
 
@@ -366,6 +368,34 @@ const char* const kLampsInFog = R"(
     <emitter type="area"><rgb name="radiance" value="0.6, 0.9, 1.5"/></emitter>
   </shape>)";
 
+/// More lights than are weighed one by one, in a fog that they shine into from near and far.
+std::string many_lights() {
+  std::string xml = R"(
+  <integrator type="volpath"/>
+  <medium type="homogeneous">
+    <rgb name="sigma_t" value="0.5, 0.4, 0.2"/>
+    <rgb name="albedo" value="0.8, 0.9, 0.95"/>
+    <phase type="hg"><float name="g" value="0.6"/></phase>
+  </medium>
+  <shape type="cube">
+    <boolean name="flip_normals" value="true"/>
+    <transform name="to_world"><scale value="2"/></transform>
+    <bsdf type="diffuse"><rgb name="reflectance" value="0.5, 0.4, 0.3"/></bsdf>
+  </shape>)";
+  for (int i = 0; i < 64; ++i) {
+    // One large lamp among small ones; rows that are dark in one colour.
+    const double x = i % 4, y = i / 4 % 4, z = i / 16;
+    xml += fmt::format(R"(
+  <shape type="sphere">
+    <point name="center" value="{}, {}, {}"/><float name="radius" value="{}"/>
+    <emitter type="area"><rgb name="radiance" value="{}, {}, {}"/></emitter>
+  </shape>)",
+                       0.8 * x - 1.2, 0.7 * y - 1.1, 0.6 * z - 1.7, i == 21 ? 0.25 : 0.08, 0.5 * x,
+                       0.3 + 0.3 * y, 0.4 + 0.2 * z);
+  }
+  return xml;
+}
+
 std::string film(const std::string& filter) {
   const std::string n = std::to_string(kSize);
   return "<film type=\"hdrfilm\"><integer name=\"width\" value=\"" + n +
@@ -408,6 +438,8 @@ const std::vector<ReferenceScene>& reference_scenes() {
        125},
       {"ShortPaths", scene(kShortPaths, perspective("0.3, 0.2, 4.5", "0, 0, 0", 38, kSize)), 125},
       {"LampsInFog", scene(kLampsInFog, perspective("0.1, 0.2, 1.9", "0, 0, -1", 70, kSize)), 125},
+      {"ManyLights", scene(many_lights(), perspective("0.1, 0.2, 1.9", "0, 0, -1", 70, kSize)),
+       125},
       {"AllLights", scene(kAllLights, perspective("0.3, 0.6, 4", "0, 0, 0", 38, kSize)), 125},
   };
   return scenes;

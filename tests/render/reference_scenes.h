@@ -27,6 +27,7 @@ namespace brume::test {
 ///   ShortPaths      homogeneous, max_depth 3   diffuse, roughconductor      area (tube), constant
 ///   LampsInFog      fills the world, coloured  null, diffuse                point, spot, each in a
 ///                                                                           bubble; area (sphere)
+///   ManyLights      fills the world, coloured  diffuse                      area (64 spheres)
 ///   AllLights       homogeneous, coloured      diffuse, plastic             all at once
 struct ReferenceScene {
   std::string name, xml;

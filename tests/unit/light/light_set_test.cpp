@@ -141,6 +141,28 @@ TEST(LightSet, LeavesAnEvenEnvironmentToPathsThatLeaveTheScene) {
   EXPECT_EQ(alone.environment_view(Vec3(0.0f), {0, 1, 0}).L, Rgb(3.0f));
 }
 
+TEST(LightSet, AddsUpManyLamps) {
+  std::vector<std::shared_ptr<const Light>> lamps;
+  Rng rng(4);
+  double want = 0.0;
+  for (int i = 0; i < 300; ++i) {
+    const float x = rng.next_float(), y = rng.next_float(), z = rng.next_float();
+    const Vec3 p(4.0f * x - 2.0f, 0.5f + y, 4.0f * z - 2.0f);
+    lamps.push_back(std::make_shared<PointLight>(p, Rgb(1.0f)));
+    want += double(p.y) / std::pow(double(length_squared(p)), 1.5);
+  }
+  const LightSet lights(lamps, {gradient()});
+  float sum = 0.0f;
+  for (std::size_t i = 0; i < lights.size(); ++i) sum += lights.probability(Vec3(0.0f), i);
+  EXPECT_NEAR(sum, 1.0f, 1e-5f);
+
+  const Vec3 n(0, 1, 0);
+  const glm::dvec3 sky = test::irradiance_by_quadrature(
+      [map = gradient()](const Vec3& d) { return map->radiance(d); }, n, 400);
+  const auto E = test::irradiance(sampler_of(lights), n, 400000);
+  EXPECT_TRUE(test::agrees(E[0], want + sky.r, 1e-4 * want));
+}
+
 TEST(LightSet, WithoutLightsIsDark) {
   const LightSet lights({}, {});
   EXPECT_FALSE(lights.sample(Vec3(0.0f), 0.5f, Vec2(0.5f)));
