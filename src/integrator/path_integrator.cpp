@@ -64,6 +64,7 @@ float PathIntegrator::learn_scattered_luminance() const {
 
 float PathIntegrator::share_of_escape(const Rgb& background) const {
   const float L = luminance(background);
+  if (!(L > 0.0f)) return 0.0f;
   return scattered_luminance_ < L ? scattered_luminance_ / L : 1.0f;
 }
 
@@ -112,15 +113,19 @@ CameraSample PathIntegrator::sample(const Vec2& film, Sampler& sampler) const {
   const Medium* medium = camera_medium_.at(camera_ray.ray);
   const Path path = trace(camera_ray, medium, sampler);
 
-  const Rgb T = scene_.transmittance(camera_ray.ray, camera_ray.t_max, medium, sampler.rng());
+  Rgb background{0.0f};
+  if (!settings_.hide_emitters) background = scene_.lights().environment_radiance(camera_ray.ray.d);
+  const float share = share_of_escape(background);
+  Rgb T = path.escaped;
+  if (share < 1.0f) {
+    const Rgb estimate =
+        scene_.transmittance(camera_ray.ray, camera_ray.t_max, medium, sampler.rng());
+    T = glm::mix(estimate, T, share);
+  }
   CameraSample result = path.first;
   result.alpha = 1.0f - mean(T);
-  result.L = path.L;
+  result.L = path.L + background * T;
   result.work = 1.0f + float(path.segments);
-  if (!settings_.hide_emitters) {
-    const Rgb L = scene_.lights().environment_radiance(camera_ray.ray.d);
-    result.L += L * glm::mix(T, path.escaped, share_of_escape(L));
-  }
   return result;
 }
 

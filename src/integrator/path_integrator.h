@@ -37,7 +37,8 @@ class PathIntegrator {
   /// light that scattered, the sum of both varies little if the two are equally bright and the same
   /// path decides between them. This is the part c of the background L that is left to the path:
   /// of a sample's variance, T (1 - T) (c L - S)^2 depends on it, where S is the radiance that
-  /// scattered, so that c = S / L.
+  /// scattered, so that c = S / L. 0 where the background is black: others will be put there, and
+  /// want the opacity from the estimate, which varies least.
   float share_of_escape(const Rgb& background) const;
 
   void light_segment(Path& path, const Segment& segment, const FreeFlight& flight,

@@ -98,7 +98,7 @@ SegmentLighting::SegmentLighting(const LightSet& lights, const Segment& segment)
   kept_.fill(-1.0f);
   scattering_here_ = max_component(segment.beta * here->value);
   const float total = lights.lights_with_pivot().total_weight(weights());
-  if (!(total > 0.0f)) return;
+  if (!(total > kLeastImportance)) return;
   odds_ = {.per_weight = 1.0f / total};
   // Half of the attention at most, and none to what the lights without a place do better.
   p_near_ = 0.5f * total / (total + lights.importance_without_pivot());

@@ -8,6 +8,9 @@
 
 namespace brume {
 
+/// Sums of importance below it are as good as none: their reciprocals may not be finite.
+constexpr float kLeastImportance = 1e-30f;
+
 /// `importance` >= 0, or infinite beside a point light, kept where sums of it are finite.
 inline float finite(float importance) {
   return std::min(importance, 1e30f);

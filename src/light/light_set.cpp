@@ -51,7 +51,7 @@ LightTree::Odds LightSet::odds_at(const Vec3& p) const {
   if (choices <= 1) return {.each = 1.0f};
   const float uniform = 1.0f / float(choices);
   const float total = importance_without_pivot_ + with_pivot_.total_weight(ImportanceAt{p, *this});
-  if (!(total > 0.0f)) return {.each = uniform};
+  if (!(total > kLeastImportance)) return {.each = uniform};
   return {.each = kUniformPart * uniform, .per_weight = (1.0f - kUniformPart) / total};
 }
 

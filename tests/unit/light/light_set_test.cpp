@@ -163,6 +163,15 @@ TEST(LightSet, AddsUpManyLamps) {
   EXPECT_TRUE(test::agrees(E[0], want + sky.r, 1e-4 * want));
 }
 
+TEST(LightSet, ChoosesAmongLightsTooFaintToWeigh) {
+  const Rgb faint(1e-38f);
+  const LightSet lights({std::make_shared<PointLight>(Vec3(0, 100, 0), faint),
+                         std::make_shared<PointLight>(Vec3(0, 200, 0), faint)},
+                        {});
+  EXPECT_EQ(lights.probability(Vec3(0.0f), 0), 0.5f);
+  EXPECT_EQ(lights.sample(Vec3(0.0f), 0.7f, Vec2(0.5f))->p_choice, 0.5f);
+}
+
 TEST(LightSet, WithoutLightsIsDark) {
   const LightSet lights({}, {});
   EXPECT_FALSE(lights.sample(Vec3(0.0f), 0.5f, Vec2(0.5f)));
