@@ -123,7 +123,7 @@ CameraSample PathIntegrator::sample(const Vec2& film, Sampler& sampler) const {
     T = glm::mix(estimate, T, share);
   }
   CameraSample result = path.first;
-  result.alpha = 1.0f - mean(T);
+  result.alpha = 1.0f - std::min(mean(T), 1.0f);  // by rounding T may be more
   result.L = path.L + background * T;
   result.work = 1.0f + float(path.segments);
   return result;

@@ -27,9 +27,9 @@ TEST_F(CheckpointCommand, KilledAndResumedTheBitsAreTheSame) {
     more.insert(more.begin(), common.begin(), common.end());
     return more;
   };
-  EXPECT_EQ(run(words({"--error", "1.5%", "-o", "whole.exr"})).exit_code, 0);
+  EXPECT_EQ(run(words({"--error", "0.5%", "-o", "whole.exr"})).exit_code, 0);
   const std::vector<std::string> stepwise =
-      words({"--error", "1.5%", "-o", "steps.exr", "--checkpoint-every", "0.05s", "--resume"});
+      words({"--error", "0.5%", "-o", "steps.exr", "--checkpoint-every", "0.05s", "--resume"});
   EXPECT_EQ(run_and(SIGKILL, stepwise, 150'000).exit_code, 128 + SIGKILL);
   EXPECT_TRUE(exists("steps.exr.checkpoint"));
   EXPECT_EQ(run_and(SIGINT, stepwise, 100'000).exit_code, 130);
