@@ -334,7 +334,7 @@ const char* const kAllLights = R"(
     <vector name="direction" value="0.5, -1, 0.1"/><rgb name="irradiance" value="0.5, 0.6, 0.8"/>
   </emitter>)";
 
-const char* const kLampsInFog = R"(
+const char* const kFogInABox = R"(
   <integrator type="volpath"/>
   <medium type="homogeneous">
     <rgb name="sigma_t" value="0.5, 0.4, 0.2"/>
@@ -345,7 +345,9 @@ const char* const kLampsInFog = R"(
     <boolean name="flip_normals" value="true"/>
     <transform name="to_world"><scale value="2"/></transform>
     <bsdf type="diffuse"><rgb name="reflectance" value="0.5, 0.4, 0.3"/></bsdf>
-  </shape>
+  </shape>)";
+
+const char* const kLampsInFog = R"(
   <shape type="sphere">
     <point name="center" value="-0.6, 0.5, -0.5"/><float name="radius" value="0.25"/>
     <bsdf type="null"/>
@@ -370,18 +372,7 @@ const char* const kLampsInFog = R"(
 
 /// More lights than are weighed one by one, in a fog that they shine into from near and far.
 std::string many_lights() {
-  std::string xml = R"(
-  <integrator type="volpath"/>
-  <medium type="homogeneous">
-    <rgb name="sigma_t" value="0.5, 0.4, 0.2"/>
-    <rgb name="albedo" value="0.8, 0.9, 0.95"/>
-    <phase type="hg"><float name="g" value="0.6"/></phase>
-  </medium>
-  <shape type="cube">
-    <boolean name="flip_normals" value="true"/>
-    <transform name="to_world"><scale value="2"/></transform>
-    <bsdf type="diffuse"><rgb name="reflectance" value="0.5, 0.4, 0.3"/></bsdf>
-  </shape>)";
+  std::string xml;
   for (int i = 0; i < 64; ++i) {
     // One large lamp among small ones; rows that are dark in one colour.
     const double x = i % 4, y = i / 4 % 4, z = i / 16;
@@ -437,9 +428,12 @@ const std::vector<ReferenceScene>& reference_scenes() {
       {"StraightOrBack", scene(kStraightOrBack, perspective("0, 0.5, 4", "0, 0, 0", 38, kSize)),
        125},
       {"ShortPaths", scene(kShortPaths, perspective("0.3, 0.2, 4.5", "0, 0, 0", 38, kSize)), 125},
-      {"LampsInFog", scene(kLampsInFog, perspective("0.1, 0.2, 1.9", "0, 0, -1", 70, kSize)), 125},
-      {"ManyLights", scene(many_lights(), perspective("0.1, 0.2, 1.9", "0, 0, -1", 70, kSize)),
+      {"LampsInFog",
+       scene(std::string(kFogInABox) + kLampsInFog,
+             perspective("0.1, 0.2, 1.9", "0, 0, -1", 70, kSize)),
        125},
+      {"ManyLights",
+       scene(kFogInABox + many_lights(), perspective("0.1, 0.2, 1.9", "0, 0, -1", 70, kSize)), 125},
       {"AllLights", scene(kAllLights, perspective("0.3, 0.6, 4", "0, 0, 0", 38, kSize)), 125},
   };
   return scenes;
