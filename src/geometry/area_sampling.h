@@ -18,12 +18,12 @@ inline float solid_angle_pdf(const Vec3& from, const Vec3& p, const Vec3& n, dou
   return projected > 0.0 && std::isfinite(float(pdf)) ? static_cast<float>(pdf) : 0.0f;
 }
 
-/// The sample for a point `p` that is uniform over `area` on a face of diameter `extent`.
-inline std::optional<ShapeSample> sample_by_area(const Vec3& from, const Vec3& p, const Vec3& n,
-                                                 double area, double extent) {
-  const float pdf = solid_angle_pdf(from, p, n, area);
+/// The sample for a point that is uniform over `area`.
+inline std::optional<ShapeSample> sample_by_area(const Vec3& from, const SurfacePoint& point,
+                                                 double area) {
+  const float pdf = solid_angle_pdf(from, point.p, point.n, area);
   if (pdf == 0.0f) return std::nullopt;
-  return ShapeSample{.p = p, .n = n, .error = surface_error(p, n, extent), .pdf = pdf};
+  return ShapeSample{.p = point.p, .n = point.n, .error = point.error, .pdf = pdf};
 }
 
 }  // namespace brume

@@ -55,9 +55,7 @@ Box3 Cube::bounds() const {
 }
 
 float Cube::area() const {
-  double sum = 0.0;
-  for (const Side& side : sides_) sum += side.area;
-  return static_cast<float>(sum);
+  return static_cast<float>(all_sides().total);
 }
 
 std::optional<Crossing> Cube::intersect(const PreciseRay& ray, double t_max) const {
@@ -115,40 +113,59 @@ Hit Cube::hit(const PreciseRay& ray, const Crossing& crossing) const {
           .shape = 0};
 }
 
-Cube::VisibleSides Cube::sides_seen_from(const Vec3& from) const {
-  const Vec3d local = to_local_ * (Vec3d(from) - center_);
-  const bool is_inside = std::max({std::abs(local.x), std::abs(local.y), std::abs(local.z)}) <= 1.0;
-  VisibleSides visible;
+template <class Condition>
+Cube::SideAreas Cube::sides_where(const Condition& condition) const {
+  SideAreas sides;
   for (int side = 0; side < kSides; ++side) {
-    if (!is_inside && !(sign_of(side) * local[axis_of(side)] > 1.0)) continue;
-    visible.area[side] = sides_[side].area;
-    visible.total += sides_[side].area;
+    if (!condition(side)) continue;
+    sides.area[side] = sides_[side].area;
+    sides.total += sides_[side].area;
   }
-  return visible;
+  return sides;
 }
 
-std::optional<ShapeSample> Cube::sample_toward(const Vec3& from, const Vec2& u) const {
-  const VisibleSides visible = sides_seen_from(from);
+Cube::SideAreas Cube::all_sides() const {
+  return sides_where([](int /*side*/) { return true; });
+}
+
+Cube::SideAreas Cube::sides_seen_from(const Vec3& from) const {
+  const Vec3d local = to_local_ * (Vec3d(from) - center_);
+  const bool is_inside = std::max({std::abs(local.x), std::abs(local.y), std::abs(local.z)}) <= 1.0;
+  if (is_inside) return all_sides();
+  return sides_where([&](int side) { return sign_of(side) * local[axis_of(side)] > 1.0; });
+}
+
+SurfacePoint Cube::sample_area(const SideAreas& among, const Vec2& u) const {
   // The side by its area; what is left of u.x serves again within the side.
-  double rest = u.x * visible.total;
+  double rest = u.x * among.total;
   int side = -1;
   for (int i = 0; i < kSides; ++i) {
-    if (visible.area[i] == 0.0) continue;
+    if (among.area[i] == 0.0) continue;
     if (side >= 0) {
-      if (rest < visible.area[side]) break;
-      rest -= visible.area[side];
+      if (rest < among.area[side]) break;
+      rest -= among.area[side];
     }
     side = i;
   }
-  const double u_side = std::min(rest / visible.area[side], 1.0);
+  const double u_side = std::min(rest / among.area[side], 1.0);
 
   const int axis = axis_of(side);
   Vec3d local;
   local[axis] = sign_of(side);
   local[(axis + 1) % 3] = 2.0 * u_side - 1.0;
   local[(axis + 2) % 3] = 2.0 * u.y - 1.0;
-  return sample_by_area(from, Vec3(center_ + to_world_ * local), sides_[side].n, visible.total,
-                        extent_);
+  const Vec3 p(center_ + to_world_ * local);
+  const Vec3& n = sides_[side].n;
+  return {.p = p, .n = n, .error = surface_error(p, n, extent_)};
+}
+
+SurfacePoint Cube::sample_area(const Vec2& u) const {
+  return sample_area(all_sides(), u);
+}
+
+std::optional<ShapeSample> Cube::sample_toward(const Vec3& from, const Vec2& u) const {
+  const SideAreas visible = sides_seen_from(from);
+  return sample_by_area(from, sample_area(visible, u), visible.total);
 }
 
 float Cube::pdf_toward(const Vec3& from, const Hit& hit) const {

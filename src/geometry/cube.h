@@ -16,6 +16,7 @@ class Cube final : public Shape {
   Box3 bounds() const override;
   float area() const override;
   bool is_closed() const override { return true; }
+  SurfacePoint sample_area(const Vec2& u) const override;
   std::optional<ShapeSample> sample_toward(const Vec3& from, const Vec2& u) const override;
   float pdf_toward(const Vec3& from, const Hit& hit) const override;
   std::optional<Crossing> intersect(const PreciseRay& ray, double t_max) const override;
@@ -28,12 +29,18 @@ class Cube final : public Shape {
     Vec3 n;       // unit, on the outside
     double area;  // [unit^2]
   };
-  /// Areas of the sides that can be seen from a point: up to three from outside, six from inside.
-  struct VisibleSides {
-    std::array<double, kSides> area{};  // 0 for a hidden side [unit^2]
+  /// Areas of some of the sides.
+  struct SideAreas {
+    std::array<double, kSides> area{};  // 0 for a side left out [unit^2]
     double total = 0.0;                 // [unit^2]
   };
-  VisibleSides sides_seen_from(const Vec3& from) const;
+  template <class Condition>
+  SideAreas sides_where(const Condition& condition) const;
+  SideAreas all_sides() const;
+  /// Up to three from outside, six from inside.
+  SideAreas sides_seen_from(const Vec3& from) const;
+  /// A point uniform over the area of `among`, which must not be empty.
+  SurfacePoint sample_area(const SideAreas& among, const Vec2& u) const;
 
   Vec3d center_;    // [unit]
   Mat3d to_world_;  // of vectors

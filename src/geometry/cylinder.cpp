@@ -68,11 +68,16 @@ Hit Cylinder::hit(const PreciseRay& ray, const Crossing& crossing) const {
           .shape = 0};
 }
 
-std::optional<ShapeSample> Cylinder::sample_toward(const Vec3& from, const Vec2& u) const {
+SurfacePoint Cylinder::sample_area(const Vec2& u) const {
   const double phi = 2.0 * M_PI * u.x;
   const Vec3d outward = std::cos(phi) * axes_[0] + std::sin(phi) * axes_[1];
-  return sample_by_area(from, point(outward, u.y * length_),
-                        Vec3(flip_normals_ ? -outward : outward), area_, extent_);
+  const Vec3 p = point(outward, u.y * length_);
+  const Vec3 n(flip_normals_ ? -outward : outward);
+  return {.p = p, .n = n, .error = surface_error(p, n, extent_)};
+}
+
+std::optional<ShapeSample> Cylinder::sample_toward(const Vec3& from, const Vec2& u) const {
+  return sample_by_area(from, sample_area(u), area_);
 }
 
 float Cylinder::pdf_toward(const Vec3& from, const Hit& hit) const {

@@ -41,8 +41,13 @@ Hit Disk::hit(const PreciseRay& /*ray*/, const Crossing& crossing) const {
           .shape = 0};
 }
 
+SurfacePoint Disk::sample_area(const Vec2& u) const {
+  const Vec3 p(patch_.at(sample_disk(u)));
+  return {.p = p, .n = patch_.n, .error = surface_error(p, patch_.n, extent_)};
+}
+
 std::optional<ShapeSample> Disk::sample_toward(const Vec3& from, const Vec2& u) const {
-  return sample_by_area(from, Vec3(patch_.at(sample_disk(u))), patch_.n, area_, extent_);
+  return sample_by_area(from, sample_area(u), area_);
 }
 
 float Disk::pdf_toward(const Vec3& from, const Hit& hit) const {

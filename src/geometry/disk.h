@@ -15,6 +15,7 @@ class Disk final : public Shape {
   Box3 bounds() const override;
   float area() const override { return static_cast<float>(area_); }
   bool is_closed() const override { return false; }
+  SurfacePoint sample_area(const Vec2& u) const override;
   std::optional<ShapeSample> sample_toward(const Vec3& from, const Vec2& u) const override;
   float pdf_toward(const Vec3& from, const Hit& hit) const override;
   std::optional<Crossing> intersect(const PreciseRay& ray, double t_max) const override;

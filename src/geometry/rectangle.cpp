@@ -49,14 +49,22 @@ std::optional<SphericalRectangle> Rectangle::seen_from(const Vec3& from) const {
   return seen;
 }
 
+SurfacePoint Rectangle::point_at(const Vec2d& xy) const {
+  const Vec3 p(patch_.at(xy));
+  return {.p = p, .n = patch_.n, .error = surface_error(p, patch_.n, extent_)};
+}
+
+SurfacePoint Rectangle::sample_area(const Vec2& u) const {
+  return point_at(2.0 * Vec2d(u) - 1.0);
+}
+
 std::optional<ShapeSample> Rectangle::sample_toward(const Vec3& from, const Vec2& u) const {
   const std::optional<SphericalRectangle> seen = seen_from(from);
-  if (!seen)
-    return sample_by_area(from, Vec3(patch_.at(2.0 * Vec2d(u) - 1.0)), patch_.n, area_, extent_);
-  const Vec3 p(patch_.at(seen->sample(u)));
-  return ShapeSample{.p = p,
-                     .n = patch_.n,
-                     .error = surface_error(p, patch_.n, extent_),
+  if (!seen) return sample_by_area(from, sample_area(u), area_);
+  const SurfacePoint point = point_at(seen->sample(u));
+  return ShapeSample{.p = point.p,
+                     .n = point.n,
+                     .error = point.error,
                      .pdf = static_cast<float>(1.0 / seen->solid_angle())};
 }
 

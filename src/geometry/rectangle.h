@@ -16,12 +16,14 @@ class Rectangle final : public Shape {
   Box3 bounds() const override;
   float area() const override { return static_cast<float>(area_); }
   bool is_closed() const override { return false; }
+  SurfacePoint sample_area(const Vec2& u) const override;
   std::optional<ShapeSample> sample_toward(const Vec3& from, const Vec2& u) const override;
   float pdf_toward(const Vec3& from, const Hit& hit) const override;
   std::optional<Crossing> intersect(const PreciseRay& ray, double t_max) const override;
   Hit hit(const PreciseRay& ray, const Crossing& crossing) const override;
 
  private:
+  SurfacePoint point_at(const Vec2d& xy) const;
   /// For sampling by solid angle; nothing where area serves better.
   std::optional<SphericalRectangle> seen_from(const Vec3& from) const;
 

@@ -33,6 +33,9 @@ class Shape {
   /// Whether the surface separates an inside from an outside.
   virtual bool is_closed() const = 0;
 
+  /// A point uniform over the area of the shape.
+  virtual SurfacePoint sample_area(const Vec2& u) const = 0;
+
   /// A point as seen from `from`, by solid angle where the shape allows it and by area elsewhere;
   /// nothing when no point can be seen. Parts of the shape may hide the point.
   virtual std::optional<ShapeSample> sample_toward(const Vec3& from, const Vec2& u) const = 0;

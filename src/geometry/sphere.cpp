@@ -58,13 +58,16 @@ std::optional<Sphere::Cone> Sphere::cone_from(const Vec3& from) const {
       .axis = way / distance, .sin2 = sine * sine, .one_minus_cos = sine * sine / (1.0 + cosine)};
 }
 
+SurfacePoint Sphere::sample_area(const Vec2& u) const {
+  const Vec3 outward = sample_uniform_sphere(u);
+  const Vec3 p(center_ + radius_ * glm::normalize(Vec3d(outward)));
+  const Vec3 n = flip_normals_ ? -outward : outward;
+  return {.p = p, .n = n, .error = surface_error(p, n, 2.0 * radius_)};
+}
+
 std::optional<ShapeSample> Sphere::sample_toward(const Vec3& from, const Vec2& u) const {
   const std::optional<Cone> cone = cone_from(from);
-  if (!cone) {
-    const Vec3 outward = sample_uniform_sphere(u);
-    const Vec3 p(center_ + radius_ * glm::normalize(Vec3d(outward)));
-    return sample_by_area(from, p, flip_normals_ ? -outward : outward, area_, 2.0 * radius_);
-  }
+  if (!cone) return sample_by_area(from, sample_area(u), area_);
 
   // The direction makes the angle theta with the axis and meets the surface at the angle beta
   // from its normal, sin beta = sin theta / sin theta_max (law of sines). Seen from the center,

@@ -195,15 +195,19 @@ const Distribution1d& TriangleMesh::triangles_by_area() const {
   return *triangles_by_area_;
 }
 
-std::optional<ShapeSample> TriangleMesh::sample_toward(const Vec3& from, const Vec2& u) const {
+SurfacePoint TriangleMesh::sample_area(const Vec2& u) const {
   const Distribution1d& distribution = triangles_by_area();
   const Distribution1d::Sample chosen = distribution.sample(u.x);
   const Corners c = corners(static_cast<std::uint32_t>(chosen.index));
   const Vec2d b(sample_triangle({chosen.offset, u.y}));
   const Vec3 p((1.0 - b.x - b.y) * c.p[0] + b.x * c.p[1] + b.y * c.p[2]);
   const std::array<double, 3> edges = c.edge_lengths();
-  return sample_by_area(from, p, outside(c.cross()), area_,
-                        std::max({edges[0], edges[1], edges[2]}));
+  const Vec3 n = outside(c.cross());
+  return {.p = p, .n = n, .error = surface_error(p, n, std::max({edges[0], edges[1], edges[2]}))};
+}
+
+std::optional<ShapeSample> TriangleMesh::sample_toward(const Vec3& from, const Vec2& u) const {
+  return sample_by_area(from, sample_area(u), area_);
 }
 
 float TriangleMesh::pdf_toward(const Vec3& from, const Hit& hit) const {

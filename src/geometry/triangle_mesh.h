@@ -27,6 +27,7 @@ class TriangleMesh final : public Shape {
   float area() const override { return static_cast<float>(area_); }
   /// Looks through all edges each time.
   bool is_closed() const override { return is_closed_surface(data_); }
+  SurfacePoint sample_area(const Vec2& u) const override;
   std::optional<ShapeSample> sample_toward(const Vec3& from, const Vec2& u) const override;
   float pdf_toward(const Vec3& from, const Hit& hit) const override;
 

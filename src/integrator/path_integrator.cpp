@@ -6,6 +6,7 @@
 #include "core/frame.h"
 #include "core/warp.h"
 #include "integrator/segment_lighting.h"
+#include "light/toward.h"
 
 namespace brume {
 
@@ -15,11 +16,19 @@ namespace {
 constexpr int kLongPath = 3000, kLostPath = 100'000;
 /// Scatterings up to which flights look for lights near to them; later ones matter too little.
 constexpr int kDepthThatSeeksLights = 2;
+/// How much more likely a path is to go on than by the share of light that light paths leave to it.
+constexpr float kSurvivalPerShare = 2.0f;
 /// Paths that have scattered from which the brightness of what scatters is learnt, and the camera
 /// samples after which the search for them ends.
 constexpr int kScatteredSamples = 64, kMostPilotSamples = 4096;
 /// A seed of no picture.
 constexpr std::uint64_t kPilotSeed = 0x62727570696c6f74;
+
+/// Whether a direction is on the same side of a surface for its shading normal, where it is
+/// `local`, as for its geometric one, where it is `world`: light must not leak.
+bool is_same_side(const Vec3& local, const Vec3& world, const Hit& hit) {
+  return local.z * glm::dot(world, hit.n) > 0.0f;
+}
 }  // namespace
 
 struct PathIntegrator::Path {
@@ -32,6 +41,7 @@ struct PathIntegrator::Path {
   Vec3 vertex{ray.o};    // where the direction was chosen
   float pdf_dir =
       kInfinity;          // density of that choice [1/sr]; infinite: light sampling cannot make it
+  float pdf_met = 0.0f;   // `pdf_dir` if light paths were met at `vertex`, else 0
   Segment segment{};      // that ended at `vertex`, if it lies in a medium; else no medium
   float t_vertex = 0.0f;  // where it did [unit]
   float eta_squared = 1.0f;  // of refractions so far, which beta carries and roulette must not see
@@ -39,11 +49,19 @@ struct PathIntegrator::Path {
   int segments = 0;          // flights, through index-matched boundaries too
   CameraSample first{};      // albedo and depth of the first event
   float t_first = 0.0f;      // length of the flights before it [unit]
+  std::shared_ptr<const LightPathSet> light{};  // paths to be met; null: none
+  std::uint32_t bundle = 0;                     // of `light`
 };
 
 PathIntegrator::PathIntegrator(const Scene& scene, const Camera& camera,
                                const PathSettings& settings)
     : scene_(scene), camera_(camera), settings_(settings), camera_medium_(scene, camera) {
+  const bool has_similar_media = settings_.approximations.similarity != Approximations{}.similarity;
+  if (settings_.lighting.light_paths && scatterings_after(1) > 0 && !has_similar_media) {
+    light_paths_ =
+        std::make_unique<const LightPaths>(scene, camera, camera_medium_, scatterings_after(1));
+    if (!light_paths_->exist()) light_paths_.reset();
+  }
   if (!settings_.hide_emitters && scene_.lights().has_environment())
     scattered_luminance_ = learn_scattered_luminance();
 }
@@ -55,7 +73,7 @@ float PathIntegrator::learn_scattered_luminance() const {
     Sampler sampler(kPilotSeed, std::uint32_t(i), 0, true);
     const Vec2 film = sampler.next_2d();
     const CameraRay camera_ray = camera_.ray(film, sampler.next_2d());
-    const Path path = trace(camera_ray, camera_medium_.at(camera_ray.ray), sampler);
+    const Path path = trace(camera_ray, camera_medium_.at(camera_ray.ray), sampler, 0);
     sum += luminance(path.L);
     scattered += path.depth > 0 ? 1 : 0;
   }
@@ -69,13 +87,18 @@ float PathIntegrator::share_of_escape(const Rgb& background) const {
 }
 
 PathIntegrator::Path PathIntegrator::trace(const CameraRay& camera_ray, const Medium* medium,
-                                           Sampler& sampler) const {
+                                           Sampler& sampler, std::uint32_t group) const {
   Path path{.ray = camera_ray.ray, .t_max = camera_ray.t_max, .medium = medium};
+  if (light_paths_ != nullptr) {
+    path.light = light_paths_->of(sampler.shared_seed(), group);
+    path.bundle = sampler.index_in_replication();
+  }
 
   for (bool alive = true; alive; ++path.segments) {
     sampler.begin_flight(std::uint32_t(path.segments));
     const auto hit = scene_.intersect(path.ray, path.t_max);
     if (hit) add_emission(path, *hit, sampler);
+    bool is_lit = false;
     if (!hit && !(path.t_max < kInfinity)) path.medium = scene_.medium_to_infinity(path.medium);
     if (path.medium != nullptr) {
       const Medium& around = medium_around(path);
@@ -89,6 +112,12 @@ PathIntegrator::Path PathIntegrator::trace(const CameraRay& camera_ray, const Me
           around.sample_free_flight(path.ray, segment.t_end, path.beta, sampler);
       path.beta *= flight.weight;
       if (may_scatter(path)) light_segment(path, segment, flight, sampler);
+      // What the camera sees through fog is lit whether or not this path gets there.
+      is_lit = hit && path.depth == 0 && around.has_closed_form();
+      if (is_lit) {
+        const Rgb T = around.transmittance(path.ray, hit->t, sampler.rng());
+        light_surface(path, *hit, segment.beta * T, sampler);
+      }
       if (is_black(path.beta)) break;
       if (flight.scattered) {
         alive =
@@ -103,15 +132,15 @@ PathIntegrator::Path PathIntegrator::trace(const CameraRay& camera_ray, const Me
         path.escaped = path.beta;
       break;
     }
-    alive = interact_with_surface(path, *hit, sampler) && survives_roulette(path, sampler);
+    alive = interact_with_surface(path, *hit, is_lit, sampler) && survives_roulette(path, sampler);
   }
   return path;
 }
 
-CameraSample PathIntegrator::sample(const Vec2& film, Sampler& sampler) const {
+CameraSample PathIntegrator::sample(const Vec2& film, Sampler& sampler, std::uint32_t group) const {
   const CameraRay camera_ray = camera_.ray(film, sampler.next_2d());
   const Medium* medium = camera_medium_.at(camera_ray.ray);
-  const Path path = trace(camera_ray, medium, sampler);
+  const Path path = trace(camera_ray, medium, sampler, group);
 
   Rgb background{0.0f};
   if (!settings_.hide_emitters) background = scene_.lights().environment_radiance(camera_ray.ray.d);
@@ -131,6 +160,11 @@ CameraSample PathIntegrator::sample(const Vec2& film, Sampler& sampler) const {
 
 bool PathIntegrator::may_scatter(const Path& path) const {
   return settings_.max_depth < 0 || path.depth + 1 < settings_.max_depth;
+}
+
+int PathIntegrator::scatterings_after(int scatterings) const {
+  constexpr int kUnlimited = std::numeric_limits<int>::max();
+  return settings_.max_depth < 0 ? kUnlimited : settings_.max_depth - 1 - scatterings;
 }
 
 bool PathIntegrator::is_diffuse(int scatterings) const {
@@ -158,6 +192,8 @@ void PathIntegrator::light_segment(Path& path, const Segment& segment, const Fre
   if (u_near.x < lighting.p_near()) {
     const SegmentLighting::Point point = lighting.sample(u_light, u_near.y);
     const Vec3 p = segment.ray.at(point.t);
+    const float left = left_by_light_paths(path, p, sampler);
+    if (left == 0.0f) return;
     const auto light = scene_.lights().light(point.light).sample(p, u_target);
     if (!light) return;
     const auto scattering = segment.medium->scattering_at(segment.ray, point.t, segment.beta);
@@ -166,19 +202,22 @@ void PathIntegrator::light_segment(Path& path, const Segment& segment, const Fre
         (1.0f - lighting.p_near()) * scattering->pdf * scene_.lights().probability(p, point.light) +
         lighting.p_near() * point.pdf;
     const float weight = power_heuristic(density * light->pdf, scattering->pdf * value);
-    connect(path, p, *light, segment.beta * scattering->value / density, value * weight, sampler);
+    connect(path, p, *light, left * segment.beta * scattering->value / density, value * weight,
+            sampler);
     return;
   }
 
   if (!flight.scattered || flight.phase.is_delta()) return;
   const Vec3 p = segment.ray.at(flight.t);
+  const float left = left_by_light_paths(path, p, sampler);
+  if (left == 0.0f) return;
   const auto arrival = scene_.lights().sample(p, u_light, u_target);
   if (!arrival) return;
   const float value = flight.phase.eval(d, arrival->light.d);
   const float mixture =
       lighting.choice(arrival->index, flight.t, arrival->p_choice) / arrival->p_choice;
   const float weight = power_heuristic(arrival->light.pdf * mixture, value);
-  connect(path, p, arrival->light, path.beta / mixture, value * weight, sampler);
+  connect(path, p, arrival->light, left * path.beta / mixture, value * weight, sampler);
 }
 
 void PathIntegrator::connect(Path& path, const Vec3& p, const LightSample& light, const Rgb& beta,
@@ -193,6 +232,94 @@ void PathIntegrator::connect(Path& path, const Vec3& p, const LightSample& light
   gather(path, beta * T * light.weight * (value / p_trace), path.depth + 1);
 }
 
+void PathIntegrator::light_surface(Path& path, const Hit& hit, const Rgb& beta,
+                                   Sampler& sampler) const {
+  const Bsdf& bsdf = scene_.bsdf(hit);
+  const float u_light = sampler.next_1d();
+  const auto arrival = scene_.lights().sample(hit.p, u_light, sampler.next_2d());
+  if (!arrival || !bsdf.has_smooth_lobe() || !may_scatter(path)) return;
+  const LightSample& light = arrival->light;
+  const Frame frame(hit.n_shading, hit.dp_du);
+  const Vec3 wo = frame.to_local(-path.ray.d), wi = frame.to_local(light.d);
+  const Rgb value = bsdf.eval(wo, wi, hit.uv);
+  if (is_black(value) || !is_same_side(wi, light.d, hit)) return;
+  const float weight = power_heuristic(light.pdf, bsdf.pdf(wo, wi, hit.uv));
+  float distance = light.distance;
+  const Ray shadow = hit.leave_toward(light.d, distance);
+  const Medium* medium = scene_.medium_toward(hit, -path.ray.d, light.d, path.medium);
+  const Rgb T =
+      scene_.transmittance(shadow, distance, medium, sampler.rng(), is_diffuse(path.depth + 1));
+  gather(path, beta * value * T * light.weight * weight, path.depth + 1);
+}
+
+float PathIntegrator::left_by_light_paths(const Path& path, const Vec3& p, Sampler& sampler) const {
+  if (!(path.pdf_met > 0.0f)) return 1.0f;
+  const float share = light_paths_->camera_share(glm::distance(p, path.vertex), path.pdf_met);
+  const float p_survive = std::min(kSurvivalPerShare * share, 1.0f);
+  return sampler.rng().next_float() < p_survive ? share / p_survive : 0.0f;
+}
+
+void PathIntegrator::meet_light_paths(Path& path, const Vec3& p, const HenyeyGreenstein& phase,
+                                      Sampler& sampler) const {
+  const Vec3 d_in = path.ray.d;
+  const auto seen = [&](float x, float y, float z) {
+    const float value = phase.eval(d_in, {x, y, z});
+    return LightPathSet::Seen{value, value};
+  };
+  const auto choice = path.light->choose(path.bundle, p, scatterings_after(path.depth), seen,
+                                         sampler.rng().next_float());
+  if (!choice) return;
+  const float distance = glm::distance(choice->vertex->p, p);
+  const Vec3 d = (choice->vertex->p - p) / distance;
+  const float value = phase.eval(d_in, d);
+  const float share = light_paths_->light_share(distance, value);
+  meet(path, {p, d}, *choice->vertex, path.medium, path.beta * (choice->weight * share * value),
+       path.depth, sampler);
+}
+
+void PathIntegrator::meet_light_paths(Path& path, const Hit& hit, Sampler& sampler) const {
+  const Bsdf& bsdf = scene_.bsdf(hit);
+  const Frame frame(hit.n_shading, hit.dp_du);
+  const Vec3 wo = frame.to_local(-path.ray.d);
+  const float u = sampler.rng().next_float();
+  const int most = scatterings_after(path.depth + 1);
+  std::optional<LightPathSet::Choice> choice;
+  if (bsdf.is_diffuse()) {
+    const Vec3 n = wo.z > 0.0f ? frame.n : -frame.n;
+    const auto seen = [&](float x, float y, float z) {
+      const float value = std::max(n.x * x + n.y * y + n.z * z, 0.0f) / kPi;
+      return LightPathSet::Seen{value, value};
+    };
+    choice = path.light->choose(path.bundle, hit.p, most, seen, u);
+  } else {
+    const auto seen = [&](float x, float y, float z) {
+      const Vec3 wi = frame.to_local({x, y, z});
+      return LightPathSet::Seen{luminance(bsdf.eval(wo, wi, hit.uv)), bsdf.pdf(wo, wi, hit.uv)};
+    };
+    choice = path.light->choose(path.bundle, hit.p, most, seen, u);
+  }
+  if (!choice) return;
+  const float distance = glm::distance(choice->vertex->p, hit.p);
+  const Vec3 d = (choice->vertex->p - hit.p) / distance;
+  const Vec3 wi = frame.to_local(d);
+  if (!is_same_side(wi, d, hit)) return;
+  const float share = light_paths_->light_share(distance, bsdf.pdf(wo, wi, hit.uv));
+  meet(path, hit.leave(d), *choice->vertex, scene_.medium_toward(hit, -path.ray.d, d, path.medium),
+       path.beta * bsdf.eval(wo, wi, hit.uv) * (choice->weight * share), path.depth + 1, sampler);
+}
+
+void PathIntegrator::meet(Path& path, const Ray& ray, const LightVertex& vertex,
+                          const Medium* medium, const Rgb& beta, int scatterings,
+                          Sampler& sampler) const {
+  const Toward toward(
+      ray.o, vertex.hit ? vertex.hit->point().end_of_ray_from(ray.o) : glm::dvec3(vertex.p));
+  if (!(toward.distance > 0.0)) return;
+  const Rgb T =
+      scene_.transmittance({ray.o, toward.d}, float(toward.distance), medium, sampler.rng());
+  gather(path, beta * T * vertex.power * scattered_toward(scene_, vertex, -ray.d),
+         scatterings + vertex.scatterings);
+}
+
 bool PathIntegrator::scatter_in_medium(Path& path, const Segment& segment, const FreeFlight& flight,
                                        Sampler& sampler) const {
   if (!std::isfinite(path.first.depth)) {
@@ -202,46 +329,44 @@ bool PathIntegrator::scatter_in_medium(Path& path, const Segment& segment, const
   if (!may_scatter(path)) return false;
   ++path.depth;
   const Vec3 p = path.ray.at(flight.t);
+  const bool meets = path.light != nullptr && !flight.phase.is_delta();
+  if (meets) {
+    path.beta *= left_by_light_paths(path, p, sampler);
+    if (is_black(path.beta)) return false;
+    meet_light_paths(path, p, flight.phase, sampler);
+  }
   const PhaseSample next = flight.phase.sample(path.ray.d, sampler.next_2d());
   path.ray = {p, next.d};
   path.t_max = kInfinity;
   path.vertex = p;
   path.pdf_dir = next.pdf;
+  path.pdf_met = meets ? next.pdf : 0.0f;
   path.segment = segment;
   path.t_vertex = flight.t;
   return true;
 }
 
-bool PathIntegrator::interact_with_surface(Path& path, const Hit& hit, Sampler& sampler) const {
+bool PathIntegrator::interact_with_surface(Path& path, const Hit& hit, bool is_lit,
+                                           Sampler& sampler) const {
   const Bsdf& bsdf = scene_.bsdf(hit);
   const Frame frame(hit.n_shading, hit.dp_du);
   const Vec3 wo = frame.to_local(-path.ray.d);
-  const auto same_side = [&](const Vec3& local, const Vec3& world) {
-    return local.z * glm::dot(world, hit.n) > 0.0f;  // light must not leak through shading normals
-  };
 
-  const float u_light = sampler.next_1d();
-  const Vec2 u_target = sampler.next_2d();
-  if (bsdf.has_smooth_lobe() && may_scatter(path)) {
-    if (const auto arrival = scene_.lights().sample(hit.p, u_light, u_target)) {
-      const LightSample* light = &arrival->light;
-      const Vec3 wi = frame.to_local(light->d);
-      const Rgb value = bsdf.eval(wo, wi, hit.uv);
-      if (!is_black(value) && same_side(wi, light->d)) {
-        const float weight = power_heuristic(light->pdf, bsdf.pdf(wo, wi, hit.uv));
-        float distance = light->distance;
-        const Ray shadow = hit.leave_toward(light->d, distance);
-        const Medium* medium = scene_.medium_toward(hit, -path.ray.d, light->d, path.medium);
-        const Rgb T = scene_.transmittance(shadow, distance, medium, sampler.rng(),
-                                           is_diffuse(path.depth + 1));
-        gather(path, path.beta * value * T * light->weight * weight, path.depth + 1);
-      }
-    }
+  // Light paths know nothing of what leaves by a Dirac lobe.
+  const bool meets = path.light != nullptr && bsdf.has_smooth_lobe();
+  const Rgb beta = path.beta;
+  if (meets) path.beta *= left_by_light_paths(path, hit.p, sampler);
+  if (bsdf.has_smooth_lobe() && may_scatter(path) && !is_black(path.beta)) {
+    if (!is_lit) light_surface(path, hit, path.beta, sampler);
+    if (meets) meet_light_paths(path, hit, sampler);
   }
 
   const float u_lobe = sampler.next_1d();
   const auto next = bsdf.sample(wo, hit.uv, u_lobe, sampler.next_2d());
   if (!next || is_black(next->weight)) return false;
+  const bool is_dirac = !(next->pdf < kInfinity);
+  if (is_dirac) path.beta = beta;
+  if (is_black(path.beta)) return false;
 
   if (next->straight) {
     path.beta *= next->weight;
@@ -259,13 +384,14 @@ bool PathIntegrator::interact_with_surface(Path& path, const Hit& hit, Sampler& 
   if (!may_scatter(path)) return false;
   ++path.depth;
   const Vec3 d = frame.to_world(next->wi);
-  if (!same_side(next->wi, d)) return false;
+  if (!is_same_side(next->wi, d, hit)) return false;
   path.beta *= next->weight;
   path.medium = scene_.medium_toward(hit, -path.ray.d, d, path.medium);
   path.ray = hit.leave(d);
   path.t_max = kInfinity;
   path.vertex = hit.p;
   path.pdf_dir = next->pdf;
+  path.pdf_met = meets && !is_dirac ? next->pdf : 0.0f;
   path.segment.medium = nullptr;
   path.eta_squared *= next->eta * next->eta;
   return true;

@@ -5,6 +5,7 @@
 #include "core/sampler.h"
 #include "film/camera_sample.h"
 #include "integrator/camera_medium.h"
+#include "integrator/light_paths.h"
 #include "integrator/path_settings.h"
 #include "integrator/segment_lighting.h"
 #include "scene/scene.h"
@@ -20,14 +21,17 @@ class PathIntegrator {
   PathIntegrator(const Scene& scene, const Camera& camera, const PathSettings& settings);
 
   /// One sample of the light that reaches the camera at `film` in [0, 1]^2, from the top left.
-  CameraSample sample(const Vec2& film, Sampler& sampler) const;
+  /// Samples with the same seed and index share light paths if they are of the same `group`, of
+  /// which there may be LightPaths::kGroups.
+  CameraSample sample(const Vec2& film, Sampler& sampler, std::uint32_t group = 0) const;
 
  private:
   struct Path;
 
   /// Follows a path from the camera, in `medium`, until it leaves the scene or ends. What stands
   /// behind everything is not part of what it gathers.
-  Path trace(const CameraRay& camera_ray, const Medium* medium, Sampler& sampler) const;
+  Path trace(const CameraRay& camera_ray, const Medium* medium, Sampler& sampler,
+             std::uint32_t group) const;
 
   /// Roughly the radiance of light that scattered on its way to the camera, as luminance
   /// [W/(m^2 sr)]; 0 if none was found.
@@ -43,16 +47,28 @@ class PathIntegrator {
 
   void light_segment(Path& path, const Segment& segment, const FreeFlight& flight,
                      Sampler& sampler) const;
+  void light_surface(Path& path, const Hit& hit, const Rgb& beta, Sampler& sampler) const;
   void connect(Path& path, const Vec3& p, const LightSample& light, const Rgb& beta, float value,
                Sampler& sampler) const;
+
+  void meet_light_paths(Path& path, const Vec3& p, const HenyeyGreenstein& phase,
+                        Sampler& sampler) const;
+  void meet_light_paths(Path& path, const Hit& hit, Sampler& sampler) const;
+  void meet(Path& path, const Ray& ray, const LightVertex& vertex, const Medium* medium,
+            const Rgb& beta, int scatterings, Sampler& sampler) const;
+  /// Roulette by what light paths leave to the path of the light that comes from `p`, where it is
+  /// about to scatter: 0 where that ends here, or else its weight.
+  float left_by_light_paths(const Path& path, const Vec3& p, Sampler& sampler) const;
 
   // Each returns whether the path goes on.
   bool scatter_in_medium(Path& path, const Segment& segment, const FreeFlight& flight,
                          Sampler& sampler) const;
-  bool interact_with_surface(Path& path, const Hit& hit, Sampler& sampler) const;
+  bool interact_with_surface(Path& path, const Hit& hit, bool is_lit, Sampler& sampler) const;
   bool survives_roulette(Path& path, Sampler& sampler) const;
 
   bool may_scatter(const Path& path) const;
+  /// How often light may have scattered that scatters so often from there on to the camera.
+  int scatterings_after(int scatterings) const;
   /// Whether light that has scattered so often is handed to the similar media.
   bool is_diffuse(int scatterings) const;
   /// The medium around the path, which must not be in vacuum, as its light sees it.
@@ -67,7 +83,8 @@ class PathIntegrator {
   const Camera& camera_;
   PathSettings settings_;
   CameraMedium camera_medium_;
-  float scattered_luminance_ = 0.0f;  // [W/(m^2 sr)]
+  std::unique_ptr<const LightPaths> light_paths_;  // null: none
+  float scattered_luminance_ = 0.0f;               // [W/(m^2 sr)]
 };
 
 }  // namespace brume

@@ -8,6 +8,7 @@ namespace brume {
 /// How light is looked for. All choices have the same expectation.
 struct LightingSettings {
   bool near_lights = true;      // points of a flight near a light, beside those where it scatters
+  bool light_paths = true;      // places that light from lamps reaches, connected to camera's paths
   bool shadow_roulette = true;  // fewer shadow rays into directions that little is scattered to
 };
 

@@ -133,6 +133,10 @@ std::vector<Setting> make_table() {
           "near-lights", kOnOff, "flights also look for light at their points close to lamps",
           [](auto& s) -> auto& { return s.lighting.near_lights; }),
       unbiased_choice(
+          "light-paths", kOnOff,
+          "light is followed from the lamps, where all lights are lamps, and met by the paths",
+          [](auto& s) -> auto& { return s.lighting.light_paths; }),
+      unbiased_choice(
           "shadow-roulette", kOnOff,
           "fewer shadow rays into directions that little light is scattered to",
           [](auto& s) -> auto& { return s.lighting.shadow_roulette; }),

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/frame.h"
+#include "core/warp.h"
 #include "light/importance.h"
 #include "light/toward.h"
 
@@ -21,21 +23,26 @@ std::optional<LightSample> AreaLight::sample(const Vec3& p, const Vec2& u) const
   const std::optional<ShapeSample> s = shape_->sample_toward(p, u);
   if (!s) return std::nullopt;
 
-  // The end of the shadow ray is o + distance d. Rounding both factors to float moves it across
-  // the surface by up to (sqrt(3) + 1) 2^-24 distance, and as much again if the ray is aimed anew
-  // from beside `p`. That comes on top of the rounding of s.p.
-  constexpr double kRounding = 0x1p-21;
-  const glm::dvec3 from(p), n(s->n), on_surface(s->p);
-  const double gap =
-      rounding_error(s->p, s->n, s->error) + kRounding * glm::length(on_surface - from);
-  const glm::dvec3 target = on_surface + gap * n;
-  if (!(glm::dot(from - target, n) > 0.0)) return std::nullopt;
+  const glm::dvec3 from(p);
+  const glm::dvec3 target =
+      SurfacePoint{.p = s->p, .n = s->n, .error = s->error}.end_of_ray_from(p);
+  if (!(glm::dot(from - target, glm::dvec3(s->n)) > 0.0)) return std::nullopt;
 
   const Toward toward(from, target);
   return LightSample{.d = toward.d,
                      .distance = static_cast<float>(toward.distance),
                      .weight = radiance_ / s->pdf,
                      .pdf = s->pdf};
+}
+
+std::optional<Light::EmittedLight> AreaLight::emit(const Vec2& u_point,
+                                                   const Vec2& u_direction) const {
+  const SurfacePoint point = shape_->sample_area(u_point);
+  const Vec3 d = Frame(point.n).to_world(sample_cosine_hemisphere(u_direction));
+  // Rounding may put a direction along the surface behind it.
+  const bool is_emitted = glm::dot(d, point.n) > 0.0f;
+  return EmittedLight{.ray = point.leave(d),
+                      .power = is_emitted ? radiance_ * (kPi * shape_->area()) : Rgb{0.0f}};
 }
 
 float AreaLight::importance(const Vec3& p) const {

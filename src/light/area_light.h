@@ -18,6 +18,8 @@ class AreaLight final : public Light {
 
   /// The shadow ray of length `distance` ends in front of the surface by its error bound.
   std::optional<LightSample> sample(const Vec3& p, const Vec2& u) const override;
+  /// Uniform over the shape, and by the cosine over the hemisphere of its normal.
+  std::optional<EmittedLight> emit(const Vec2& u_point, const Vec2& u_direction) const override;
   float importance(const Vec3& p) const override;
   std::optional<Pivot> pivot() const override;
 

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "core/ray.h"
 #include "core/rgb.h"
 #include "core/vec.h"
 
@@ -16,13 +17,26 @@ struct LightSample {
   float pdf;       // of `d` in solid angle [1/sr]; infinite for a Dirac
 };
 
-/// Something that emits, seen from a point.
+/// Something that emits, seen from a point or sending out rays.
 class Light {
  public:
   virtual ~Light() = default;
 
   /// Light arriving at `p` from a direction chosen by importance; nothing when none can arrive.
   virtual std::optional<LightSample> sample(const Vec3& p, const Vec2& u) const = 0;
+
+  /// Light that sets out along a ray.
+  struct EmittedLight {
+    Ray ray;
+    Rgb power;  // (radiance x cosine, or intensity) / density of the ray [W]; black for no light
+  };
+  /// Light that leaves from an origin chosen by `u_point` into a direction chosen by `u_direction`,
+  /// before anything takes its share; the mean of `power` is the power of the light. Nothing,
+  /// whatever the numbers, for light from infinitely far away.
+  virtual std::optional<EmittedLight> emit(const Vec2& /*u_point*/,
+                                           const Vec2& /*u_direction*/) const {
+    return std::nullopt;
+  }
 
   /// Roughly the fluence at `p` if nothing stood in between, as luminance [W/m^2]; finite, and 0
   /// only where no light can arrive. It guides the choice among lights.

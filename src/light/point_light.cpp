@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "light/point_light.h"
 
+#include "core/warp.h"
 #include "light/importance.h"
 #include "light/toward.h"
 
@@ -13,6 +14,12 @@ std::optional<LightSample> PointLight::sample(const Vec3& p, const Vec2& /*u*/) 
                      .distance = static_cast<float>(toward.distance),
                      .weight = intensity_ * toward.inverse_square(),
                      .pdf = kInfinity};
+}
+
+std::optional<Light::EmittedLight> PointLight::emit(const Vec2& /*u_point*/,
+                                                    const Vec2& u_direction) const {
+  return EmittedLight{.ray = {.o = position_, .d = sample_uniform_sphere(u_direction)},
+                      .power = 4.0f * kPi * intensity_};
 }
 
 float PointLight::importance(const Vec3& p) const {

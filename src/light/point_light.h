@@ -13,6 +13,8 @@ class PointLight final : public Light {
       : position_(position), intensity_(intensity) {}
 
   std::optional<LightSample> sample(const Vec3& p, const Vec2& u) const override;
+  /// Uniform in direction.
+  std::optional<EmittedLight> emit(const Vec2& u_point, const Vec2& u_direction) const override;
   float importance(const Vec3& p) const override;
   std::optional<Pivot> pivot() const override;
 

@@ -15,14 +15,18 @@ class SpotLight final : public Light {
   SpotLight(const glm::dmat4& to_world, const Rgb& intensity, float cutoff_angle, float beam_width);
 
   std::optional<LightSample> sample(const Vec3& p, const Vec2& u) const override;
+  /// Uniform over the directions of the cone, as its own space sees them.
+  std::optional<EmittedLight> emit(const Vec2& u_point, const Vec2& u_direction) const override;
   float importance(const Vec3& p) const override;
   std::optional<Pivot> pivot() const override;
 
  private:
+  float falloff(float angle) const;
   float falloff(const Vec3& d) const;
 
   Vec3 position_;  // [unit]
   glm::mat3 to_local_;
+  glm::dmat3 to_world_;              // scaled to a determinant of 1 or -1
   Rgb intensity_;                    // [W/sr]
   float cutoff_angle_, beam_width_;  // [rad]
 };

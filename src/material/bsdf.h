@@ -32,6 +32,8 @@ class Bsdf {
 
   /// Whether `eval` is nonzero anywhere, that is whether next-event estimation can help.
   virtual bool has_smooth_lobe() const { return true; }
+  /// Whether reflected light is spread as by Lambert's law, on one side or on both.
+  virtual bool is_diffuse() const { return false; }
   /// Whether `straight_transmittance` is nonzero anywhere: such a surface must be looked at, where
   /// any other may be taken for opaque to shadow rays.
   virtual bool passes_straight() const { return false; }

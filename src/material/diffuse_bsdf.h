@@ -18,6 +18,7 @@ class DiffuseBsdf final : public Bsdf {
   float pdf(const Vec3& wo, const Vec3& wi, const Vec2& uv) const override;
   std::optional<BsdfSample> sample(const Vec3& wo, const Vec2& uv, float u_lobe,
                                    const Vec2& u) const override;
+  bool is_diffuse() const override { return true; }
   Rgb albedo(const Vec2& uv) const override;
 
  private:

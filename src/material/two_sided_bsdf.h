@@ -18,6 +18,7 @@ class TwoSidedBsdf final : public Bsdf {
   std::optional<BsdfSample> sample(const Vec3& wo, const Vec2& uv, float u_lobe,
                                    const Vec2& u) const override;
   bool has_smooth_lobe() const override;
+  bool is_diffuse() const override { return front_->is_diffuse() && back_->is_diffuse(); }
   /// Mean of the two sides.
   Rgb albedo(const Vec2& uv) const override;
 

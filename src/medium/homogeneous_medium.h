@@ -30,6 +30,7 @@ class HomogeneousMedium final : public Medium {
   FreeFlight sample_free_flight(const Ray& ray, float t_max, const Rgb& beta,
                                 Sampler& sampler) const override;
   Rgb transmittance(const Ray& ray, float t_max, Rng& rng) const override;
+  bool has_closed_form() const override { return true; }
   std::optional<ScatteringAt> scattering_at(const Ray& ray, float t,
                                             const Rgb& beta) const override;
   MediumSummary summary() const override;

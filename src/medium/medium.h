@@ -44,6 +44,9 @@ class Medium {
   /// Unbiased estimate of exp(-int_0^t_max sigma_t dt); exact where a closed form exists.
   virtual Rgb transmittance(const Ray& ray, float t_max, Rng& rng) const = 0;
 
+  /// Whether transmittance is known, so that it costs next to nothing, and `scattering_at` with it.
+  virtual bool has_closed_form() const { return false; }
+
   /// Scattering at a point of a flight, where it is known in closed form.
   struct ScatteringAt {
     Rgb value;  // transmittance to the point times sigma_s there [1/unit]

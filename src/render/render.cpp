@@ -106,6 +106,18 @@ std::uint64_t samples_drawn(const Film& film) {
   return sum;
 }
 
+std::uint32_t least_drawn(const Film& film) {
+  std::uint32_t least = RenderSettings::kUnlimited;
+  for (std::uint32_t y = 0; y < film.height(); ++y)
+    for (std::uint32_t x = 0; x < film.width(); ++x) least = std::min(least, film.drawn(x, y));
+  return least;
+}
+
+std::uint32_t most_samples(const SamplePlan& plan) {
+  return plan.uneven.empty() ? plan.even
+                             : *std::max_element(plan.uneven.begin(), plan.uneven.end());
+}
+
 ProgressState Renderer::goals() const {
   const bool unlimited = settings_.spp == RenderSettings::kUnlimited;
   return {.pixels = std::uint64_t(film_.width()) * film_.height(),
@@ -138,7 +150,13 @@ bool Renderer::finish_round() {
   if (state_.blocks == 1)
     for (const std::uint32_t few : {1u, 2u, 4u, 8u})
       if (!bring_to(plan, std::min(few, settings_.spp))) return false;
-  return bring_to(plan, settings_.spp);
+  // One replication after the other, as all pixels share what belongs to a replication.
+  const std::uint32_t most = std::min(most_samples(plan), settings_.spp);
+  for (std::uint32_t end = least_drawn(film_); end < most;) {
+    end = std::min((end / Sampler::kReplication + 1) * Sampler::kReplication, most);
+    if (!bring_to(plan, end)) return false;
+  }
+  return !clock_.has_stopped();
 }
 
 /// Whether all pixels got the samples of `plan`, up to `limit`.
