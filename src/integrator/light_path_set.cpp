@@ -2,11 +2,13 @@
 #include "integrator/light_path_set.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 namespace brume {
 
 void LightPathSet::add(const LightVertex& vertex, float p_kept) {
+  const std::size_t lane = vertices_.size() % kLanes;
+  if (lane == 0) blocks_.emplace_back();
   Rgb power = vertex.power;
   Vec3 axis = vertex.d;
   if (vertex.hit) {
@@ -17,61 +19,65 @@ void LightPathSet::add(const LightVertex& vertex, float p_kept) {
     else
       glossy_.push_back(vertices_.size());
   }
+  Block& block = blocks_.back();
+  block.x[lane] = vertex.p.x;
+  block.y[lane] = vertex.p.y;
+  block.z[lane] = vertex.p.z;
+  block.axis_x[lane] = axis.x;
+  block.axis_y[lane] = axis.y;
+  block.axis_z[lane] = axis.z;
+  block.g[lane] = vertex.phase.g;
+  block.is_surface[lane] = vertex.hit ? 1.0f : 0.0f;
+  block.strength[lane] = luminance(power) / p_kept;
   vertices_.push_back(vertex);
   p_kept_.push_back(p_kept);
-  x_.push_back(vertex.p.x);
-  y_.push_back(vertex.p.y);
-  z_.push_back(vertex.p.z);
-  axis_x_.push_back(axis.x);
-  axis_y_.push_back(axis.y);
-  axis_z_.push_back(axis.z);
-  g_.push_back(vertex.phase.g);
-  is_surface_.push_back(vertex.hit ? 1.0f : 0.0f);
-  strength_.push_back(luminance(power) / p_kept);
 }
 
-void LightPathSet::find_candidates(std::uint32_t bundle, const Vec3& p, int most_scatterings,
-                                   Candidates& candidates) const {
-  const std::size_t begin = bundle == 0 ? 0 : ends_[bundle - 1], end = ends_[bundle];
-  const std::size_t count = end - begin;
-  candidates.begin = begin;
-  for (std::vector<float>* column :
-       {&candidates.x, &candidates.y, &candidates.z, &candidates.far, &candidates.light})
-    column->resize(count);
+void LightPathSet::end_bundle() {
+  vertices_.resize(blocks_.size() * kLanes);
+  p_kept_.resize(blocks_.size() * kLanes, 1.0f);
+  ends_.push_back(blocks_.size());
+}
 
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t v = begin + i;
-    const float x = reach_ * (x_[v] - p.x), y = reach_ * (y_[v] - p.y), z = reach_ * (z_[v] - p.z);
-    const float far = x * x + y * y + z * z;
-    const float inverse = 1.0f / std::sqrt(std::max(far, std::numeric_limits<float>::min()));
-    candidates.x[i] = x * inverse;
-    candidates.y[i] = y * inverse;
-    candidates.z[i] = z * inverse;
-    candidates.far[i] = far;
-    // Of the angle between the axis and the direction toward `p`.
-    const float cosine = -inverse * (x * axis_x_[v] + y * axis_y_[v] + z * axis_z_[v]);
-    const float g = g_[v], denominator = std::max(1.0f + g * (g - 2.0f * cosine), 1e-6f);
-    const float phase = 0.25f * (1.0f - g * g) / (denominator * std::sqrt(denominator));
-    const float reflected = std::max(cosine, 0.0f);
-    const float leaving = (phase + is_surface_[v] * (reflected - phase)) * (1.0f / kPi);
-    // exp(-tau), roughly.
-    const float tau = sigma_t_ / reach_ * far * inverse;
-    const float T = 1.0f / (1.0f + tau * (1.0f + tau * (0.5f + tau * (1.0f / 6.0f))));
-    candidates.light[i] = strength_[v] * leaving * T;
-  }
+LightPathSet::Candidates LightPathSet::candidates_of(const Block& v, const Vec3& p) const {
+  const Lanes x = reach_ * (v.x - p.x), y = reach_ * (v.y - p.y), z = reach_ * (v.z - p.z);
+  const Lanes far = x * x + y * y + z * z;
+  const Lanes inverse = 1.0f / sqrt(max(far, Lanes(std::numeric_limits<float>::min())));
+  // Of the angle between the axis and the direction toward `p`.
+  const Lanes cosine = -inverse * (x * v.axis_x + y * v.axis_y + z * v.axis_z);
+  const Lanes denominator = max(1.0f + v.g * (v.g - 2.0f * cosine), Lanes(1e-6f));
+  const Lanes phase = 0.25f * (1.0f - v.g * v.g) / (denominator * sqrt(denominator));
+  const Lanes reflected = max(cosine, Lanes(0.0f));
+  const Lanes leaving = (phase + v.is_surface * (reflected - phase)) / kPi;
+  const Lanes tau = sigma_t_ / reach_ * far * inverse;
+  const Lanes one_over_T = 1.0f + tau * (1.0f + tau * (0.5f + tau * (1.0f / 6.0f)));  // roughly
+  return {.x = x * inverse,
+          .y = y * inverse,
+          .z = z * inverse,
+          .far = far,
+          .light = v.strength * leaving / one_over_T};
+}
+
+void LightPathSet::find_candidates(std::size_t begin, std::size_t end, const Vec3& p,
+                                   int most_scatterings,
+                                   std::vector<Candidates>& candidates) const {
+  candidates.clear();
+  for (std::size_t i = begin; i < end; ++i) candidates.push_back(candidates_of(blocks_[i], p));
 
   // Glossy surfaces send their light into few directions.
-  auto glossy = std::lower_bound(glossy_.begin(), glossy_.end(), begin);
-  for (; glossy != glossy_.end() && *glossy < end; ++glossy) {
-    const std::size_t i = *glossy - begin;
+  auto glossy = std::lower_bound(glossy_.begin(), glossy_.end(), begin * kLanes);
+  for (; glossy != glossy_.end() && *glossy < end * kLanes; ++glossy) {
+    Candidates& c = candidates[*glossy / kLanes - begin];
+    const std::size_t lane = *glossy % kLanes;
     const LightVertex& vertex = vertices_[*glossy];
-    const Vec3 d(candidates.x[i], candidates.y[i], candidates.z[i]);
-    candidates.light[i] =
+    const Vec3 d(c.x[lane], c.y[lane], c.z[lane]);
+    c.light[lane] =
         luminance(vertex.power * scattered_toward(*scene_, vertex, -d)) / p_kept_[*glossy];
   }
   if (most_scatterings == std::numeric_limits<int>::max()) return;
-  for (std::size_t i = 0; i < count; ++i)
-    if (vertices_[begin + i].scatterings > most_scatterings) candidates.light[i] = 0.0f;
+  for (std::size_t i = begin * kLanes; i < end * kLanes; ++i)
+    if (vertices_[i].scatterings > most_scatterings)
+      candidates[i / kLanes - begin].light[i % kLanes] = 0.0f;
 }
 
 }  // namespace brume

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <experimental/simd>
 #include <optional>
 #include <vector>
 
@@ -13,18 +14,21 @@ namespace brume {
 /// the camera is connected to.
 class LightPathSet {
  public:
+  /// As many places are looked at together.
+  using Lanes = std::experimental::fixed_size_simd<float, 8>;
+
   /// `reach` [1/unit] and `sigma_t` [1/unit] as in LightPaths and LightPathGuide.
   LightPathSet(const Scene& scene, float reach, float sigma_t, int paths_per_bundle)
       : scene_(&scene), reach_(reach), sigma_t_(sigma_t), paths_per_bundle_(paths_per_bundle) {}
 
   /// To the bundle that is being filled; `p_kept` is the probability that the vertex is added.
   void add(const LightVertex& vertex, float p_kept);
-  void end_bundle() { ends_.push_back(vertices_.size()); }
+  void end_bundle();
 
   /// What a place scatters toward the camera from a direction.
   struct Seen {
-    float value;  // in luminance, the cosine at a surface included [1/sr]
-    float pdf;    // with which the camera's path goes on into the direction [1/sr]
+    Lanes value;  // roughly, in luminance, the cosine at a surface included [1/sr]
+    Lanes pdf;    // roughly, with which the camera's path goes on into the direction [1/sr]
   };
   struct Choice {
     const LightVertex* vertex;
@@ -32,63 +36,78 @@ class LightPathSet {
   };
   /// Chooses from a bundle by the light that a place `p` would scatter toward the camera if nothing
   /// stood in between (resampled importance sampling, Talbot et al. 2005). `seen(x, y, z)` returns
-  /// `Seen` for a unit direction. Light has scattered `most_scatterings` times at most. Nothing
+  /// `Seen` for unit directions. Light has scattered `most_scatterings` times at most. Nothing
   /// where none could arrive.
   template <class SeenFrom>
   std::optional<Choice> choose(std::uint32_t bundle, const Vec3& p, int most_scatterings,
                                const SeenFrom& seen, float u) const;
 
  private:
-  /// What a place would get from each vertex of a bundle if nothing stood in between.
-  struct Candidates {
-    std::size_t begin = 0;       // the first vertex
-    std::vector<float> x, y, z;  // unit direction toward it
-    std::vector<float> far;      // reach times distance, squared
-    std::vector<float> light;    // roughly that leaves it toward the place, in luminance
+  static constexpr std::size_t kLanes = Lanes::size();
+
+  /// What a guess of the light needs of the vertices.
+  struct Block {
+    Lanes x{0.0f}, y{0.0f}, z{0.0f};                 // [unit]
+    Lanes axis_x{0.0f}, axis_y{0.0f}, axis_z{0.0f};  // along the light; on surfaces the normal
+    Lanes g{0.0f};
+    Lanes is_surface{0.0f};  // 1 or 0
+    Lanes strength{0.0f};    // of what leaves, in luminance, over `p_kept` [W]; 0: no vertex
   };
-  void find_candidates(std::uint32_t bundle, const Vec3& p, int most_scatterings,
-                       Candidates& candidates) const;
+  /// What a place would get from vertices if nothing stood in between.
+  struct Candidates {
+    Lanes x, y, z;  // unit direction toward them
+    Lanes far;      // reach times distance, squared
+    Lanes light;    // roughly that leaves them toward the place, in luminance
+  };
+  void find_candidates(std::size_t begin, std::size_t end, const Vec3& p, int most_scatterings,
+                       std::vector<Candidates>& candidates) const;
+  Candidates candidates_of(const Block& block, const Vec3& p) const;
 
   const Scene* scene_;
   float reach_, sigma_t_;
   int paths_per_bundle_;
-  std::vector<LightVertex> vertices_;
-  std::vector<std::size_t> ends_;    // [bundle], in vertices_
-  std::vector<float> p_kept_;        // [vertex]
-  std::vector<std::size_t> glossy_;  // vertices on surfaces that are not diffuse, in their order
-  // What a guess of the light needs, [vertex]:
-  std::vector<float> x_, y_, z_;                 // [unit]
-  std::vector<float> axis_x_, axis_y_, axis_z_;  // along the light; on surfaces the normal there
-  std::vector<float> g_;                         // 0 on surfaces
-  std::vector<float> is_surface_;                // 1 or 0
-  std::vector<float> strength_;                  // of what leaves, in luminance, over p_kept [W]
+  std::vector<Block> blocks_;
+  std::vector<std::size_t> ends_;      // [bundle], in blocks_
+  std::vector<LightVertex> vertices_;  // [block][lane]
+  std::vector<float> p_kept_;          // [block][lane]
+  std::vector<std::size_t> glossy_;    // vertices on surfaces that are not diffuse, in their order
 };
 
 template <class SeenFrom>
 std::optional<LightPathSet::Choice> LightPathSet::choose(std::uint32_t bundle, const Vec3& p,
                                                          int most_scatterings, const SeenFrom& seen,
                                                          float u) const {
-  thread_local Candidates candidates;
-  find_candidates(bundle, p, most_scatterings, candidates);
-  std::vector<float>& light = candidates.light;
-  float total = 0.0f;
-  for (std::size_t i = 0; i < light.size(); ++i) {
-    const Seen s = seen(candidates.x[i], candidates.y[i], candidates.z[i]);
-    const float value = light[i] * s.value / (candidates.far[i] + s.pdf);
-    light[i] = value > 0.0f && value < kInfinity ? value : 0.0f;
-    total += light[i];
+  thread_local std::vector<Candidates> candidates;
+  const std::size_t begin = bundle == 0 ? 0 : ends_[bundle - 1];
+  find_candidates(begin, ends_[bundle], p, most_scatterings, candidates);
+  Lanes sums(0.0f);
+  for (Candidates& c : candidates) {
+    const Seen s = seen(c.x, c.y, c.z);
+    c.light *= s.value / (c.far + s.pdf);
+    where(!(c.light > 0.0f), c.light) = 0.0f;
+    sums += c.light;
   }
+  const float total = reduce(sums);
   if (!(total > 0.0f && total < kInfinity)) return std::nullopt;
-  float rest = u * total;
-  std::size_t chosen = light.size();
-  for (std::size_t i = 0; i < light.size() && rest >= 0.0f; ++i) {
-    if (light[i] == 0.0f) continue;
-    chosen = i;
-    rest -= light[i];
+
+  float rest = u * total, light = 0.0f;
+  std::size_t chosen = 0;
+  for (std::size_t i = 0; i < candidates.size() && rest >= 0.0f; ++i) {
+    const float of_block = reduce(candidates[i].light);
+    if (rest >= of_block && i + 1 < candidates.size()) {
+      rest -= of_block;
+      continue;
+    }
+    for (std::size_t lane = 0; lane < kLanes && rest >= 0.0f; ++lane) {
+      if (!(candidates[i].light[lane] > 0.0f)) continue;
+      light = candidates[i].light[lane];
+      chosen = (begin + i) * kLanes + lane;
+      rest -= light;
+    }
   }
-  const std::size_t vertex = candidates.begin + chosen;
-  return Choice{.vertex = &vertices_[vertex],
-                .weight = total / (light[chosen] * p_kept_[vertex] * float(paths_per_bundle_))};
+  if (light == 0.0f) return std::nullopt;
+  return Choice{.vertex = &vertices_[chosen],
+                .weight = total / (light * p_kept_[chosen] * float(paths_per_bundle_))};
 }
 
 }  // namespace brume

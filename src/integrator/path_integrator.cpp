@@ -24,6 +24,8 @@ constexpr int kScatteredSamples = 64, kMostPilotSamples = 4096;
 /// A seed of no picture.
 constexpr std::uint64_t kPilotSeed = 0x62727570696c6f74;
 
+using Lanes = LightPathSet::Lanes;
+
 /// Whether a direction is on the same side of a surface for its shading normal, where it is
 /// `local`, as for its geometric one, where it is `world`: light must not leak.
 bool is_same_side(const Vec3& local, const Vec3& world, const Hit& hit) {
@@ -262,8 +264,10 @@ float PathIntegrator::left_by_light_paths(const Path& path, const Vec3& p, Sampl
 void PathIntegrator::meet_light_paths(Path& path, const Vec3& p, const HenyeyGreenstein& phase,
                                       Sampler& sampler) const {
   const Vec3 d_in = path.ray.d;
-  const auto seen = [&](float x, float y, float z) {
-    const float value = phase.eval(d_in, {x, y, z});
+  const auto seen = [&](const Lanes& x, const Lanes& y, const Lanes& z) {
+    const Lanes cosine = d_in.x * x + d_in.y * y + d_in.z * z;
+    const Lanes denominator = max(1.0f + phase.g * (phase.g - 2.0f * cosine), Lanes(1e-6f));
+    const Lanes value = (1.0f - phase.g * phase.g) / (4.0f * kPi * denominator * sqrt(denominator));
     return LightPathSet::Seen{value, value};
   };
   const auto choice = path.light->choose(path.bundle, p, scatterings_after(path.depth), seen,
@@ -286,15 +290,20 @@ void PathIntegrator::meet_light_paths(Path& path, const Hit& hit, Sampler& sampl
   std::optional<LightPathSet::Choice> choice;
   if (bsdf.is_diffuse()) {
     const Vec3 n = wo.z > 0.0f ? frame.n : -frame.n;
-    const auto seen = [&](float x, float y, float z) {
-      const float value = std::max(n.x * x + n.y * y + n.z * z, 0.0f) / kPi;
+    const auto seen = [&](const Lanes& x, const Lanes& y, const Lanes& z) {
+      const Lanes value = max(n.x * x + n.y * y + n.z * z, Lanes(0.0f)) / kPi;
       return LightPathSet::Seen{value, value};
     };
     choice = path.light->choose(path.bundle, hit.p, most, seen, u);
   } else {
-    const auto seen = [&](float x, float y, float z) {
-      const Vec3 wi = frame.to_local({x, y, z});
-      return LightPathSet::Seen{luminance(bsdf.eval(wo, wi, hit.uv)), bsdf.pdf(wo, wi, hit.uv)};
+    const auto seen = [&](const Lanes& x, const Lanes& y, const Lanes& z) {
+      LightPathSet::Seen s;
+      for (std::size_t lane = 0; lane < Lanes::size(); ++lane) {
+        const Vec3 wi = frame.to_local({x[lane], y[lane], z[lane]});
+        s.value[lane] = luminance(bsdf.eval(wo, wi, hit.uv));
+        s.pdf[lane] = bsdf.pdf(wo, wi, hit.uv);
+      }
+      return s;
     };
     choice = path.light->choose(path.bundle, hit.p, most, seen, u);
   }
