@@ -14,8 +14,8 @@ namespace {
 constexpr std::uint64_t kTrialSeed = 0x6c69676874206973;
 /// Paths that learn in which directions light leaves the lamps, and then, so guided, where it is
 /// seen from; a trial ends earlier once it has found many places.
-constexpr int kDirectionTrials = 32768, kPlaceTrials = 8192;
-constexpr std::size_t kMostTrialVertices = 32768;
+constexpr int kDirectionTrials = 16384, kPlaceTrials = 4096;
+constexpr std::size_t kMostTrialVertices = 16384;
 /// Each place is judged by so many receivers.
 constexpr int kReceiversPerPlace = 4;
 
@@ -25,7 +25,8 @@ constexpr float kUniformShare = 0.25f;        // of the mean, that every bin get
 
 constexpr int kCellsAcross = 8;  // of the box around all places, along each axis
 constexpr int kKinds = 7;        // in a medium, or on a surface that faces one of six ways
-constexpr float kLeastKept = 0.2f;
+/// However useless a place seemed to be.
+constexpr float kLeastKept = 0.25f;
 
 std::vector<float> powers(const LightTracer& tracer) {
   std::vector<float> result;

@@ -34,10 +34,11 @@ LightPaths::LightPaths(const Scene& scene, const Camera& camera, const CameraMed
   const float places = p_kept_ * per_path * float(paths);
 
   // Rays between places in a box are 4 volume / area long on average: a path with as many flights
-  // as places brings a fluence of 4 / area of its power. Half of the places are out of sight.
+  // as places brings a fluence of 4 / area of its power. A quarter of that is what is in sight and
+  // not worth less than others.
   const Vec3 size = guide_.bounds().size();
   const float area = 2.0f * (size.x * size.y + size.y * size.z + size.z * size.x);
-  reach_ = std::sqrt(2.0f * places / area);
+  reach_ = std::sqrt(places / area);
   if (!std::isfinite(reach_) || !(reach_ > 0.0f)) return;
   float share = 0.0f;
   for (const float distance : guide_.distances())
