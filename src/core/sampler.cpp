@@ -57,12 +57,12 @@ constexpr float owen_scramble(std::uint32_t reversed, std::uint32_t seed) {
 }  // namespace
 
 Sampler::Sampler(std::uint64_t seed, std::uint32_t pixel, std::uint32_t sample, bool independent)
-    : shared_seed_(hash_combine(seed, sample / kReplication)),
-      index_(sample % kReplication),
+    : block_seed_(hash_combine(seed, sample / kBlock)),
+      index_in_block_(sample % kBlock),
       replication_hash_(hash_combine(hash_combine(seed, pixel), sample / kReplication)),
-      reversed_index_(reverse_bits(index_)),
+      reversed_index_(reverse_bits(sample % kReplication)),
       dimension_(independent ? kSobolDimensions : 0),
-      rng_(hash_combine(replication_hash_, index_), pixel) {}
+      rng_(hash_combine(replication_hash_, sample % kReplication), pixel) {}
 
 float Sampler::next_1d() {
   if (dimension_ >= kSobolDimensions) return rng_.next_float();

@@ -37,10 +37,10 @@ class Sampler {
       dimension_ = kSobolDimensions;
   }
 
-  /// A seed that the samples of a replication share with those of the same replication in all
-  /// other pixels, and the place of this sample among them.
-  std::uint64_t shared_seed() const { return shared_seed_; }
-  std::uint32_t index_in_replication() const { return index_; }
+  /// A seed that the samples of a block share with those of the same block in all other pixels, and
+  /// the place of this sample among them.
+  std::uint64_t block_seed() const { return block_seed_; }
+  std::uint32_t index_in_block() const { return index_in_block_; }
 
   /// Stream for tracking, where the count of numbers is not known beforehand.
   Rng& rng() { return rng_; }
@@ -52,10 +52,10 @@ class Sampler {
   static constexpr std::uint32_t kSobolDimensions =
       kCameraDimensions + kSobolFlights * kFlightDimensions;
 
-  std::uint64_t shared_seed_;
-  std::uint32_t index_;  // within the replication
+  std::uint64_t block_seed_;
+  std::uint32_t index_in_block_;
   std::uint64_t replication_hash_;
-  std::uint32_t reversed_index_;  // `index_` bit by bit
+  std::uint32_t reversed_index_;  // within the replication, bit by bit
   std::uint32_t dimension_;       // the next one
   Rng rng_;
 };

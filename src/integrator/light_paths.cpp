@@ -60,7 +60,7 @@ std::shared_ptr<const LightPathSet> LightPaths::of(std::uint64_t seed, std::uint
 std::shared_ptr<const LightPathSet> LightPaths::traced(std::uint64_t seed) const {
   auto set = std::make_shared<LightPathSet>(scene_, reach_, guide_.sigma_t(), paths_per_bundle_);
   std::vector<LightVertex> vertices;
-  for (std::uint32_t bundle = 0; bundle < Sampler::kReplication; ++bundle) {
+  for (std::uint32_t bundle = 0; bundle < Sampler::kBlock; ++bundle) {
     vertices.clear();
     for (int i = 0; i < paths_per_bundle_; ++i) {
       Sampler sampler(seed, bundle, std::uint32_t(i));

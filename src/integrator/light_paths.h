@@ -34,8 +34,9 @@ class LightPaths {
   /// Whether the scene's light can be followed from the lamps, and is worth it.
   bool exist() const { return paths_per_bundle_ > 0; }
 
-  /// Those for all samples with `seed`, in bundles by their index; any two groups have different
-  /// ones. May be called by many threads. Precondition: exist().
+  /// Those for all samples of a block, `seed` being Sampler::block_seed(): a bundle for each. Any
+  /// two groups have different ones. May be called by many threads; costs little where it is asked
+  /// for one block after the other. Precondition: exist().
   std::shared_ptr<const LightPathSet> of(std::uint64_t seed, std::uint32_t group) const;
 
   /// Share of the light from a place at `distance` [unit] that is left to the path from the camera,

@@ -92,8 +92,8 @@ PathIntegrator::Path PathIntegrator::trace(const CameraRay& camera_ray, const Me
                                            Sampler& sampler, std::uint32_t group) const {
   Path path{.ray = camera_ray.ray, .t_max = camera_ray.t_max, .medium = medium};
   if (light_paths_ != nullptr) {
-    path.light = light_paths_->of(sampler.shared_seed(), group);
-    path.bundle = sampler.index_in_replication();
+    path.light = light_paths_->of(sampler.block_seed(), group);
+    path.bundle = sampler.index_in_block();
   }
 
   for (bool alive = true; alive; ++path.segments) {

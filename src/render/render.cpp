@@ -150,10 +150,10 @@ bool Renderer::finish_round() {
   if (state_.blocks == 1)
     for (const std::uint32_t few : {1u, 2u, 4u, 8u})
       if (!bring_to(plan, std::min(few, settings_.spp))) return false;
-  // One replication after the other, as all pixels share what belongs to a replication.
+  // Block by block, as pixels share light paths in a block.
   const std::uint32_t most = std::min(most_samples(plan), settings_.spp);
   for (std::uint32_t end = least_drawn(film_); end < most;) {
-    end = std::min((end / Sampler::kReplication + 1) * Sampler::kReplication, most);
+    end = std::min((end / Sampler::kBlock + 1) * Sampler::kBlock, most);
     if (!bring_to(plan, end)) return false;
   }
   return !clock_.has_stopped();

@@ -97,9 +97,9 @@ Rendered render_with(const TestScene& scene, int replications, std::uint64_t see
                      SampleAt&& sample_at) {
   Rendered result(scene.width(), scene.height(), replications);
   int bad = 0;
-  for (int y = 0; y < scene.height(); ++y)
-    for (int x = 0; x < scene.width(); ++x)
-      for (int i = 0; i < replications * int(Sampler::kReplication); ++i) {
+  for (int i = 0; i < replications * int(Sampler::kReplication); ++i)
+    for (int y = 0; y < scene.height(); ++y)
+      for (int x = 0; x < scene.width(); ++x) {
         Sampler sampler(seed, std::uint32_t(y * scene.width() + x), std::uint32_t(i));
         const Vec2 film = scene.film_point(x, y, sampler);
         const CameraSample s = sample_at(film, sampler);

@@ -42,6 +42,7 @@ TEST(EstimatorSettings, TextbookIsPlainTrackingWithoutBias) {
   EXPECT_FALSE(settings.tracking.control);
   EXPECT_FALSE(settings.tracking.roulette);
   EXPECT_FALSE(settings.lighting.near_lights);
+  EXPECT_FALSE(settings.lighting.light_paths);
   EXPECT_FALSE(settings.lighting.shadow_roulette);
   EXPECT_EQ(settings.numbers, EstimatorSettings::Numbers::kIndependent);
   EXPECT_THAT(biased_settings(settings), IsEmpty());
@@ -69,8 +70,9 @@ TEST(EstimatorSettings, BiasIsDeclaredByValue) {
 
 TEST(EstimatorSettings, ALaterAssignmentReplacesAnEarlierOne) {
   EstimatorSettings settings;
-  for (const char* assignment : {"textbook", "control=on", "roulette=on", "lookup=stochastic",
-                                 "bounds=cells", "near-lights=on", "shadow-roulette=on"})
+  for (const char* assignment :
+       {"textbook", "control=on", "roulette=on", "lookup=stochastic", "bounds=cells",
+        "near-lights=on", "light-paths=on", "shadow-roulette=on"})
     apply_setting(assignment, settings);
   EXPECT_THAT(changed_settings(settings),
               UnorderedElementsAre(std::pair("sampler", "independent")));
