@@ -80,34 +80,32 @@ std::optional<LightPathSet::Choice> LightPathSet::choose(std::uint32_t bundle, c
   thread_local std::vector<Candidates> candidates;
   const std::size_t begin = bundle == 0 ? 0 : ends_[bundle - 1];
   find_candidates(begin, ends_[bundle], p, most_scatterings, candidates);
-  Lanes sums(0.0f);
+  double total = 0.0;
   for (Candidates& c : candidates) {
     const Seen s = seen(c.x, c.y, c.z);
     c.light *= s.value / (c.far + s.pdf);
     where(!(c.light > 0.0f), c.light) = 0.0f;
-    sums += c.light;
+    total += reduce(c.light);
   }
-  const float total = reduce(sums);
-  if (!(total > 0.0f && total < kInfinity)) return std::nullopt;
+  if (!(total > 0.0 && total < kInfinity)) return std::nullopt;
 
-  float rest = u * total, light = 0.0f;
-  std::size_t chosen = 0;
-  for (std::size_t i = 0; i < candidates.size() && rest >= 0.0f; ++i) {
-    const float of_block = reduce(candidates[i].light);
-    if (rest >= of_block && i + 1 < candidates.size()) {
-      rest -= of_block;
-      continue;
-    }
-    for (std::size_t lane = 0; lane < kLanes && rest >= 0.0f; ++lane) {
-      if (!(candidates[i].light[lane] > 0.0f)) continue;
-      light = candidates[i].light[lane];
-      chosen = (begin + i) * kLanes + lane;
-      rest -= light;
-    }
-  }
-  if (light == 0.0f) return std::nullopt;
-  return Choice{.vertex = &vertices_[chosen],
-                .weight = total / (light * p_kept_[chosen] * float(paths_per_bundle_))};
+  // First the block, then what is left of the random number chooses within it.
+  double rest = u * total;
+  std::size_t block = 0;
+  while (block + 1 < candidates.size() && rest >= reduce(candidates[block].light))
+    rest -= reduce(candidates[block++].light);
+  const Lanes& light = candidates[block].light;
+  const float of_block = reduce(light);
+  double running = 0.0, sum = 0.0;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) sum += light[lane];
+  rest = std::min(rest / of_block, double(kOneMinusEpsilon)) * sum;
+  std::size_t lane = 0;
+  while (lane + 1 < kLanes && rest >= (running += light[lane])) ++lane;
+  if (!(light[lane] > 0.0f)) return std::nullopt;
+  const std::size_t chosen = (begin + block) * kLanes + lane;
+  return Choice{
+      .vertex = &vertices_[chosen],
+      .weight = float(total / (double(light[lane]) * p_kept_[chosen])) / float(paths_per_bundle_)};
 }
 
 }  // namespace brume

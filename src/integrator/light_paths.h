@@ -25,7 +25,7 @@ namespace brume {
 class LightPaths {
  public:
   /// Pixels in as many groups may have light paths of their own at the same time.
-  static constexpr std::uint32_t kGroups = 81;
+  static constexpr std::uint32_t kGroups = 324;
 
   /// The arguments must outlive this.
   LightPaths(const Scene& scene, const Camera& camera, const CameraMedium& camera_medium,

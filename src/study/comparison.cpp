@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 #include "core/error.h"
 #include "film/picture_error.h"
+#include "study/grouped_sum.h"
 
 namespace brume {
 namespace {
@@ -66,14 +68,16 @@ Comparison compare(const Image& image_a, const Image& image_b) {
   Comparison result{.mean = mean_of(a), .reference_mean = mean_of(b)};
   const double radiance = average(result.reference_mean);
   result.epsilon = dark_level(b);
-  glm::dvec3 difference(0.0), variance(0.0);
+  glm::dvec3 difference(0.0);
+  std::array<GroupedSum, 3> sums;
   double squares = 0.0, relative_squares = 0.0;
   for (int y = 0; y < a.height(); ++y)
     for (int x = 0; x < a.width(); ++x) {
       const glm::dvec3 value = a.colour(x, y), reference = b.colour(x, y);
       const glm::dvec3 d = value - reference;
       difference += d;
-      variance += a.variance(x, y) + b.variance(x, y);
+      const glm::dvec3 variance = a.variance(x, y) + b.variance(x, y);
+      for (int c = 0; c < 3; ++c) sums[std::size_t(c)].add(x, y, d[c], variance[c]);
       const double squared_error = average(d * d);
       squares += squared_error;
       relative_squares += relative_squared_error(value, reference, result.epsilon);
@@ -86,7 +90,8 @@ Comparison compare(const Image& image_a, const Image& image_b) {
   result.relative_mse = relative_squares / pixels;
   result.psnr = result.rmse > 0.0 ? 20.0 * std::log10(largest_of(b) / result.rmse) : INFINITY;
   if (a.has_errors() || b.has_errors()) {
-    result.bias_error = glm::sqrt(variance) / pixels;
+    result.bias_error =
+        glm::sqrt(glm::dvec3(sums[0].variance(), sums[1].variance(), sums[2].variance())) / pixels;
     result.same = test_same_picture(a, b);
   }
   return result;

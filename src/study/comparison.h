@@ -19,9 +19,11 @@ struct PixelDifference {
 
 /// How picture A differs from the reference B. Errors are averaged over all pixels and channels.
 struct Comparison {
-  glm::dvec3 mean, reference_mean;         // of A and B per channel
-  glm::dvec3 bias{0.0};                    // mean of A - B per channel
-  std::optional<glm::dvec3> bias_error{};  // its standard error, where a picture has error layers
+  glm::dvec3 mean, reference_mean;  // of A and B per channel
+  glm::dvec3 bias{0.0};             // mean of A - B per channel
+  /// Standard error of `bias`, where a picture has error layers; allows for pixels that share light
+  /// paths (GroupedSum), and is a few percent too large where none do.
+  std::optional<glm::dvec3> bias_error{};
   double rmse = 0.0;
   double relative_rmse = 0.0;  // as in film/picture_error.h
   /// Mean of (A - B)^2 / (B^2 + epsilon^2): every pixel counts by its own brightness, and those

@@ -6,30 +6,10 @@
 #include <cmath>
 #include <vector>
 
-#include "study/student.h"
+#include "study/grouped_sum.h"
 
 namespace brume {
 namespace {
-
-/// Sum of differences over a part of the picture, one channel.
-struct Block {
-  double difference = 0.0;
-  double variance = 0.0;
-  double variance_squares = 0.0;  // of the single pixels
-  std::uint64_t pixels = 0;
-
-  void add(double d, double v) {
-    difference += d;
-    variance += v;
-    variance_squares += v * v;
-    pixels += 1;
-  }
-  /// Probability of so large a difference by chance.
-  double p() const {
-    const double degrees = variance * variance / variance_squares;
-    return student_two_sided(difference / std::sqrt(variance), degrees);
-  }
-};
 
 /// Probabilities of hypotheses that need not be independent, as one (Liu and Xie 2020, eq. 1).
 class CauchyCombination {
@@ -62,8 +42,8 @@ SamePicture test_same_picture(const Picture& a, const Picture& b) {
   const int size = block_size(a.width(), a.height());
   const int across = (a.width() + size - 1) / size;
   const int down = (a.height() + size - 1) / size;
-  std::vector<Block> blocks(std::size_t(across) * std::size_t(down) * 3);
-  Block whole[3];
+  std::vector<GroupedSum> blocks(std::size_t(across) * std::size_t(down) * 3);
+  GroupedSum whole[3];
 
   SamePicture result;
   double squares = 0.0;
@@ -84,19 +64,21 @@ SamePicture test_same_picture(const Picture& a, const Picture& b) {
           beyond += d * d > 9.0 * v;
           blocks[(std::size_t(y / size) * std::size_t(across) + std::size_t(x / size)) * 3 +
                  std::size_t(c)]
-              .add(d, v);
-          whole[c].add(d, v);
+              .add(x, y, d, v);
+          whole[c].add(x, y, d, v);
         }
       }
     }
 
   CauchyCombination combination;
-  for (const Block& block : blocks)
-    if (block.pixels > 0) combination.add(block.p());
+  for (const GroupedSum& block : blocks)
+    if (block.pixels() > 0) combination.add(block.p());
   // The whole picture weighs as much as all its blocks, or a small error everywhere would be lost.
-  for (const Block& channel : whole)
-    for (std::size_t i = 0; channel.pixels > 0 && i < blocks.size() / 3; ++i)
-      combination.add(channel.p());
+  for (const GroupedSum& channel : whole) {
+    if (channel.pixels() == 0) continue;
+    const double p = channel.p();
+    for (std::size_t i = 0; i < blocks.size() / 3; ++i) combination.add(p);
+  }
   result.p_same = result.impossible > 0 ? 0.0 : combination.p();
   if (result.compared > 0) {
     result.mean_square_z = squares / double(result.compared);

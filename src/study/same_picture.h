@@ -11,13 +11,11 @@ namespace brume {
 ///
 /// z is the difference of a pixel's channel over its standard error. Pixels know their own error
 /// from few samples, so that z spreads wider than a normal variable even between renders of the
-/// same scene, and its mean square is for the eye. `p_same` is for decisions: it tests the
-/// differences of whole blocks of pixels, and of the whole picture, against the sum of the
-/// variances, by Student's t with the degrees of freedom of Satterthwaite 1946 at one a pixel, so
-/// that a block whose variance rests on a few fireflies counts as knowing little. The blocks'
-/// probabilities, which need not be independent, are joined by the Cauchy combination (Liu and Xie
-/// 2020). It assumes that pixels are independent, as brume's are, and that a block has enough
-/// samples for its sum to be nearly symmetric.
+/// same scene, and its mean square is for the eye. `p_same` is for decisions: it tests the sums of
+/// the differences over whole blocks of pixels, and over the whole picture, against what chance
+/// does to such sums (GroupedSum: pixels that share light paths are not taken for independent). The
+/// blocks' probabilities, which need not be independent, are joined by the Cauchy combination (Liu
+/// and Xie 2020). It assumes that a block has enough samples for its sum to be nearly symmetric.
 struct SamePicture {
   std::uint64_t compared = 0;    // values (pixels times channels) with a finite, positive error
   std::uint64_t unknown = 0;     // left out: an error is infinite
