@@ -6,17 +6,28 @@
 namespace brume {
 namespace {
 
-/// Pixels with the same coordinates modulo this share light paths: farther apart where there are so
-/// many that light paths cost little, as errors that neighbours share are seen.
+constexpr std::uint32_t kWindow = SamplePlan::kWindow;
+
+double pixels_per_group(const FilmSettings& film, std::uint32_t spacing) {
+  return double(film.size.x) * film.size.y / (double(spacing) * spacing);
+}
+
+/// Pixels so far apart share light paths: farther where there are so many that light paths cost
+/// little, as errors that neighbours share are seen.
 std::uint32_t spacing(const FilmSettings& film) {
-  constexpr std::uint32_t kWindow = SamplePlan::kWindow;
-  constexpr double kPixelsPerGroup = 200.0;
-  static_assert(2 * kWindow * 2 * kWindow <= LightPaths::kGroups);
-  const double pixels = double(film.size.x) * film.size.y;
-  return pixels >= 4 * kWindow * kWindow * kPixelsPerGroup ? 2 * kWindow : kWindow;
+  constexpr std::uint32_t kWide = 2 * kWindow;
+  constexpr double kEnoughPixels = 200.0;
+  static_assert(kWide * kWide <= LightPaths::kGroups);
+  return pixels_per_group(film, kWide) >= kEnoughPixels ? kWide : kWindow;
 }
 
 }  // namespace
+
+PathSettings suited_to(const FilmSettings& film, PathSettings path) {
+  constexpr double kLeastPixels = 16.0;
+  if (pixels_per_group(film, kWindow) < kLeastPixels) path.lighting.light_paths = false;
+  return path;
+}
 
 SampleFunction camera_samples(const PathIntegrator& integrator, const FilmSettings& film,
                               std::uint64_t seed, bool independent) {

@@ -141,7 +141,8 @@ int run_render(const RenderOptions& options) {
   Film film(std::uint32_t(loaded.film.crop_size.x), std::uint32_t(loaded.film.crop_size.y),
             film_layers(options, loaded));
   const RenderCheckpoint checkpoint(options, loaded, checkpoint_path, film);
-  const PathIntegrator integrator(*loaded.scene, *loaded.camera, loaded.path);
+  const PathIntegrator integrator(*loaded.scene, *loaded.camera,
+                                  suited_to(loaded.film, loaded.path));
 
   const InterruptGuard guard;
   const double load_seconds = seconds_since(begin);

@@ -45,7 +45,8 @@ void SceneSubject::prepare(const Trial& trial) {
   path.lighting = options.settings.lighting;
   path.approximations = options.settings.approximations;
   if (options.max_depth) path.max_depth = *options.max_depth;
-  integrator_ = std::make_unique<const PathIntegrator>(*loaded_->scene, *loaded_->camera, path);
+  integrator_ = std::make_unique<const PathIntegrator>(*loaded_->scene, *loaded_->camera,
+                                                       suited_to(loaded_->film, path));
 }
 
 Subject::Rendered SceneSubject::render(std::uint32_t spp, std::uint64_t seed) {

@@ -2,30 +2,48 @@
 #include "study/accuracy.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 
+#include "render/sample_plan.h"
 #include "study/picture.h"
 
 namespace brume {
 namespace {
 
-/// Mean over pixels, with an interval from their spread (Welford 1962).
+/// Mean over pixels, with an interval from their spread, or from that of groups of pixels that may
+/// share light paths if it is wider.
 class PixelMean {
  public:
-  void add(double x) {
+  void add(int x, int y, double value) {
+    Group& group = groups_[std::size_t(y % kPeriod * kPeriod + x % kPeriod)];
+    group.sum += value;
+    group.pixels += 1.0;
+    const double deviation = value - mean_;  // Welford 1962
     n_ += 1.0;
-    const double deviation = x - mean_;
     mean_ += deviation / n_;
-    squares_ += deviation * (x - mean_);
+    squares_ += deviation * (value - mean_);
   }
   Estimate scaled_by(double scale) const {
     constexpr double kTwoSided95 = 1.95996;  // quantile of the normal distribution
-    const double error = n_ > 1.0 ? std::sqrt(squares_ / (n_ * (n_ - 1.0))) : INFINITY;
-    return {scale * mean_, kTwoSided95 * scale * error};
+    const double of_pixels = n_ > 1.0 ? squares_ / (n_ * (n_ - 1.0)) : INFINITY;
+    double squares = 0.0, shares_squared = 0.0;
+    for (const Group& group : groups_) {
+      const double rest = (group.sum - group.pixels * mean_) / n_;
+      squares += rest * rest;
+      shares_squared += group.pixels * group.pixels / (n_ * n_);
+    }
+    const double of_groups = shares_squared < 1.0 ? squares / (1.0 - shares_squared) : 0.0;
+    return {scale * mean_, kTwoSided95 * scale * std::sqrt(std::max(of_pixels, of_groups))};
   }
 
  private:
+  static constexpr int kPeriod = int(SamplePlan::kWindow);  // [pixel]
+  struct Group {
+    double sum = 0.0, pixels = 0.0;
+  };
+  std::array<Group, kPeriod * kPeriod> groups_{};
   double n_ = 0.0, mean_ = 0.0, squares_ = 0.0;
 };
 
@@ -88,9 +106,9 @@ Accuracy measure_accuracy(std::span<const Image> pictures, const Reference& refe
       }
       if (!reference.variance.pixels.empty()) variance = Picture(reference.variance).colour(x, y);
       // Products of one picture's two differences hold its noise; those of two pictures do not.
-      error.add(average(products / n - variance));
-      bias.add(average((sum_first * sum_second - products) / (n * (n - 1.0)) - variance));
-      mean.add(average(0.5 * (sum_first + sum_second) / n));
+      error.add(x, y, average(products / n - variance));
+      bias.add(x, y, average((sum_first * sum_second - products) / (n * (n - 1.0)) - variance));
+      mean.add(x, y, average(0.5 * (sum_first + sum_second) / n));
     }
 
   const double unit = 1.0 / (reference.radiance * reference.radiance);
