@@ -50,8 +50,8 @@ def scenes(folder, procedural_size):
     (folder / "haze.xml").write_text(HAZE)
     (folder / "constant.xml").write_text(CONSTANT.replace("{media}", str(ROOT / "media")))
     found = {
-        "fog": ([ROOT / "scenes/cornell_box_spheres_area_lights_fog.xml", "--size", "64x64"], 64, 64),
-        "god rays": ([ROOT / "scenes/cornell_box_spheres_god_rays.xml", "--size", "64x64"], 64, 64),
+        "fog": ([ROOT / "scenes/cornell_box_spheres_area_lights_fog.xml", "--size", "128x128"], 64, 64),
+        "god rays": ([ROOT / "scenes/cornell_box_spheres_god_rays.xml", "--size", "128x128"], 64, 64),
         "haze, small lamp": ([folder / "haze.xml", "--size", "96x72"], 64, 64),
         "constant grid": ([folder / "constant.xml", "--size", "64x48"], 64, 32),
         "cumulus": ([ROOT / "scenes/vdb_cloud_sun_sky.xml", "--size", "72x48"], 64, 16),

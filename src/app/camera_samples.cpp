@@ -1,31 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/camera_samples.h"
 
-#include "render/sample_plan.h"
-
 namespace brume {
 namespace {
 
-constexpr std::uint32_t kWindow = SamplePlan::kWindow;
-
-double pixels_per_group(const FilmSettings& film, std::uint32_t spacing) {
+double pixels_per_group(const FilmSettings& film, int spacing) {
   return double(film.size.x) * film.size.y / (double(spacing) * spacing);
 }
 
-/// Pixels so far apart share light paths: farther where there are so many that light paths cost
-/// little, as errors that neighbours share are seen.
+/// How far apart pixels are that share light paths: farther where there are so many that light
+/// paths cost little, as errors that neighbours share are seen. [pixel]
 std::uint32_t spacing(const FilmSettings& film) {
-  constexpr std::uint32_t kWide = 2 * kWindow;
+  constexpr int kWide = 2 * kLightPathSpacing;
   constexpr double kEnoughPixels = 200.0;
   static_assert(kWide * kWide <= LightPaths::kGroups);
-  return pixels_per_group(film, kWide) >= kEnoughPixels ? kWide : kWindow;
+  return pixels_per_group(film, kWide) >= kEnoughPixels ? kWide : kLightPathSpacing;
 }
 
 }  // namespace
 
 PathSettings suited_to(const FilmSettings& film, PathSettings path) {
   constexpr double kLeastPixels = 16.0;
-  if (pixels_per_group(film, kWindow) < kLeastPixels) path.lighting.light_paths = false;
+  if (pixels_per_group(film, kLightPathSpacing) < kLeastPixels) path.lighting.light_paths = false;
   return path;
 }
 

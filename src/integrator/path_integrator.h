@@ -25,6 +25,10 @@ class PathIntegrator {
   /// which there may be LightPaths::kGroups.
   CameraSample sample(const Vec2& film, Sampler& sampler, std::uint32_t group = 0) const;
 
+  /// Whether there are light paths to share. They cost little only where pixels ask for samples of
+  /// the same index one after the other.
+  bool meets_light_paths() const { return light_paths_ != nullptr; }
+
  private:
   struct Path;
 

@@ -5,6 +5,10 @@
 
 namespace brume {
 
+/// Pixels a multiple of this apart along both axes may share light paths; any others are
+/// independent. [pixel]
+inline constexpr int kLightPathSpacing = 9;
+
 /// How light is looked for. All choices have the same expectation.
 struct LightingSettings {
   bool near_lights = true;      // points of a flight near a light, beside those where it scatters

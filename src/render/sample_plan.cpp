@@ -11,7 +11,7 @@
 namespace brume {
 namespace {
 
-constexpr std::uint32_t kRadius = SamplePlan::kWindow / 2;  // [pixel]
+constexpr int kRadius = 4;                  // [pixel] of the window that decides for a pixel
 constexpr std::uint32_t kFloorDivisor = 8;  // no pixel gets less than this part of the average
 constexpr double kLargestFactor = 8.0;      // nor more than this multiple
 /// Sample indices have 32 bits.
@@ -67,10 +67,10 @@ std::vector<float> weights(const Film& film, std::size_t level) {
   std::vector<float> result;
   result.reserve(std::size_t(width) * height);
   for (std::uint32_t y = 0; y < height; ++y) {
-    const std::uint32_t top = y - std::min(y, kRadius);
+    const std::uint32_t top = y - std::min<std::uint32_t>(y, kRadius);
     const std::uint32_t bottom = std::min(y + kRadius + 1, height);
     for (std::uint32_t x = 0; x < width; ++x) {
-      const std::uint32_t left = x - std::min(x, kRadius);
+      const std::uint32_t left = x - std::min<std::uint32_t>(x, kRadius);
       const std::uint32_t right = std::min(x + kRadius + 1, width);
       // The rounding of sums may leave a little less than nothing.
       const double v = std::max(variance.sum(left, top, right, bottom) - variance_of(x, y), 0.0);

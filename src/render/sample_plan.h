@@ -17,10 +17,6 @@ std::uint32_t next_round(std::uint32_t blocks);
 
 /// Samples that pixels are to have at the end of a round.
 struct SamplePlan {
-  /// Pixels around a pixel, along each axis and with itself, that decide what it gets. They must be
-  /// independent of it.
-  static constexpr std::uint32_t kWindow = 9;
-
   std::uint32_t even = 0;               // each, when `uneven` is empty
   std::vector<std::uint32_t> uneven{};  // [height][width]
 

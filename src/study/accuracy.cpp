@@ -6,7 +6,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "render/sample_plan.h"
+#include "integrator/path_settings.h"
 #include "study/picture.h"
 
 namespace brume {
@@ -39,7 +39,7 @@ class PixelMean {
   }
 
  private:
-  static constexpr int kPeriod = int(SamplePlan::kWindow);  // [pixel]
+  static constexpr int kPeriod = kLightPathSpacing;  // [pixel]
   struct Group {
     double sum = 0.0, pixels = 0.0;
   };

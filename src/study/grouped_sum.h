@@ -4,13 +4,13 @@
 #include <array>
 #include <cstdint>
 
-#include "render/sample_plan.h"
+#include "integrator/path_settings.h"
 
 namespace brume {
 
 /// Sum of the differences of pixels of two pictures, and how far off from zero it may be by chance.
 ///
-/// Pixels a multiple of `SamplePlan::kWindow` apart along both axes may share light paths, so that
+/// Pixels a multiple of `kLightPathSpacing` apart along both axes may share light paths, so that
 /// their errors hang together; any others are independent. Each pixel knows its own variance, and
 /// by that the variance of the sum is known to lie between two bounds: that of independent pixels,
 /// and that of groups whose pixels all err as one. In between, it is taken from the spread of the
@@ -33,7 +33,7 @@ class GroupedSum {
   double p() const;
 
  private:
-  static constexpr int kPeriod = int(SamplePlan::kWindow);  // [pixel]
+  static constexpr int kPeriod = kLightPathSpacing;  // [pixel]
 
   struct Group {
     double difference = 0.0;

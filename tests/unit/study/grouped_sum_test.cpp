@@ -14,7 +14,7 @@ namespace brume {
 namespace {
 
 constexpr int kWidth = 144, kHeight = 108;
-constexpr int kPeriod = int(SamplePlan::kWindow);
+constexpr int kPeriod = kLightPathSpacing;
 // All groups have as many pixels.
 static_assert(kWidth % kPeriod == 0 && kHeight % kPeriod == 0);
 
