@@ -137,7 +137,7 @@ struct LightPathGuide::Trial {
 LightPathGuide::LightPathGuide(const Scene& scene, const LightTracer& tracer,
                                std::span<const Receiver> receivers)
     : scene_(scene), tracer_(tracer), lamps_(powers(tracer)) {
-  if (tracer_.lamps().empty() || receivers.empty()) return;
+  if (receivers.empty()) return;
   learn_directions(run_trial(kDirectionTrials, kTrialSeed, receivers));
   learn_places(run_trial(kPlaceTrials, kTrialSeed + 1, receivers));
 }

@@ -31,7 +31,8 @@ std::vector<Receiver> find_receivers(const Scene& scene, const Camera& camera,
 /// looked for, not what is expected of them.
 class LightPathGuide {
  public:
-  /// The arguments must outlive the guide, the receivers only the constructor.
+  /// The arguments must outlive the guide, the receivers only the constructor. Precondition: the
+  /// tracer has lamps.
   LightPathGuide(const Scene& scene, const LightTracer& tracer,
                  std::span<const Receiver> receivers);
 

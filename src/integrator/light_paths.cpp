@@ -21,13 +21,11 @@ constexpr float kLeastShare = 0.5f;
 
 LightPaths::LightPaths(const Scene& scene, const Camera& camera, const CameraMedium& camera_medium,
                        int max_scatterings)
-    : scene_(scene),
-      tracer_(scene, max_scatterings),
-      guide_(scene, tracer_,
-             tracer_.lamps().empty() ? std::vector<Receiver>{}
-                                     : find_receivers(scene, camera, camera_medium, kReceivers)) {
-  if (!guide_.found_light() || guide_.distances().empty()) return;
-  const float per_path = guide_.kept_per_path();
+    : scene_(scene), tracer_(scene, max_scatterings) {
+  if (tracer_.lamps().empty()) return;
+  guide_.emplace(scene, tracer_, find_receivers(scene, camera, camera_medium, kReceivers));
+  if (!guide_->found_light() || guide_->distances().empty()) return;
+  const float per_path = guide_->kept_per_path();
   const auto paths =
       int(std::clamp(kPlacesPerBundle / per_path + 0.5f, 1.0f, float(kMostPathsPerBundle)));
   p_kept_ = std::min(kPlacesPerBundle / (per_path * float(paths)), 1.0f);
@@ -36,13 +34,13 @@ LightPaths::LightPaths(const Scene& scene, const Camera& camera, const CameraMed
   // Rays between places in a box are 4 volume / area long on average: a path with as many flights
   // as places brings a fluence of 4 / area of its power. A quarter of that is what is in sight and
   // not worth less than others.
-  const Vec3 size = guide_.bounds().size();
+  const Vec3 size = guide_->bounds().size();
   const float area = 2.0f * (size.x * size.y + size.y * size.z + size.z * size.x);
   reach_ = std::sqrt(places / area);
   if (!std::isfinite(reach_) || !(reach_ > 0.0f)) return;
   float share = 0.0f;
-  for (const float distance : guide_.distances())
-    share += (1.0f - camera_share(distance, 0.25f / kPi)) / float(guide_.distances().size());
+  for (const float distance : guide_->distances())
+    share += (1.0f - camera_share(distance, 0.25f / kPi)) / float(guide_->distances().size());
   if (share > kLeastShare) paths_per_bundle_ = paths;
 }
 
@@ -58,19 +56,19 @@ std::shared_ptr<const LightPathSet> LightPaths::of(std::uint64_t seed, std::uint
 }
 
 std::shared_ptr<const LightPathSet> LightPaths::traced(std::uint64_t seed) const {
-  auto set = std::make_shared<LightPathSet>(scene_, reach_, guide_.sigma_t(), paths_per_bundle_);
+  auto set = std::make_shared<LightPathSet>(scene_, reach_, guide_->sigma_t(), paths_per_bundle_);
   std::vector<LightVertex> vertices;
   for (std::uint32_t bundle = 0; bundle < Sampler::kBlock; ++bundle) {
     vertices.clear();
     for (int i = 0; i < paths_per_bundle_; ++i) {
       Sampler sampler(seed, bundle, std::uint32_t(i));
-      const LightPathGuide::Start start = guide_.start(sampler);
+      const LightPathGuide::Start start = guide_->start(sampler);
       tracer_.trace(tracer_.lamps()[start.lamp], start.u_direction, start.weight, sampler,
                     vertices);
     }
     Rng rng(seed, bundle);
     for (const LightVertex& vertex : vertices) {
-      const float p_kept = p_kept_ * guide_.keep(vertex);
+      const float p_kept = p_kept_ * guide_->keep(vertex);
       if (rng.next_float() < p_kept) set->add(vertex, p_kept);
     }
     set->end_bundle();

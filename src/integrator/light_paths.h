@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 
 #include "integrator/light_path_guide.h"
 #include "integrator/light_path_set.h"
@@ -62,7 +63,7 @@ class LightPaths {
 
   const Scene& scene_;
   LightTracer tracer_;
-  LightPathGuide guide_;
+  std::optional<LightPathGuide> guide_;  // nothing where no light can be followed
   int paths_per_bundle_ = 0;
   float p_kept_ = 1.0f;  // besides the guide's
   float reach_ = 0.0f;   // root of the fluence of a bundle over the power of a path [1/unit]
