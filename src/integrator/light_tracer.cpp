@@ -7,9 +7,9 @@
 
 namespace brume {
 namespace {
-/// Scatterings after which every path ends sooner or later.
+/// Scatterings after which every path ends sooner or later: of those that lose nothing a share of
+/// n^-1.5 gets as far as n, so that their mean length is finite and their weights grow slowly.
 constexpr int kLongPath = 64;
-constexpr float kSurvivalOfLongPaths = 0.95f;
 }  // namespace
 
 struct LightTracer::Path {
@@ -140,7 +140,8 @@ bool LightTracer::interact_with_surface(Path& path, const Hit& hit, Sampler& sam
 bool LightTracer::survives_roulette(Path& path, Sampler& sampler) const {
   if (path.scatterings >= max_scatterings_) return false;
   float p_survive = std::min(max_component(path.power) / path.full_power, 1.0f);
-  if (path.scatterings >= kLongPath) p_survive = std::min(p_survive, kSurvivalOfLongPaths);
+  if (path.scatterings >= kLongPath)
+    p_survive = std::min(p_survive, 1.0f - 1.5f / float(path.scatterings));
   if (!(sampler.next_1d() < p_survive)) return false;
   path.power /= p_survive;
   return true;
