@@ -14,7 +14,7 @@ void LightPathSet::add(const LightVertex& vertex, float p_kept) {
   if (vertex.hit) {
     const Hit& hit = *vertex.hit;
     axis = glm::dot(vertex.d, hit.n) < 0.0f ? hit.n : -hit.n;
-    if (scene_->bsdf(hit).is_diffuse())
+    if (scene_->bsdf(hit).is_diffuse() && hit.n == hit.n_shading)
       power *= scene_->bsdf(hit).albedo(hit.uv);
     else
       glossy_.push_back(vertices_.size());
@@ -64,7 +64,7 @@ void LightPathSet::find_candidates(std::size_t begin, std::size_t end, const Vec
   candidates.clear();
   for (std::size_t i = begin; i < end; ++i) candidates.push_back(candidates_of(blocks_[i], p));
 
-  // Glossy surfaces send their light into few directions.
+  // Glossy surfaces send their light into few directions, and smooth normals see around corners.
   auto glossy = std::lower_bound(glossy_.begin(), glossy_.end(), begin * kLanes);
   for (; glossy != glossy_.end() && *glossy < end * kLanes; ++glossy) {
     Candidates& c = candidates[*glossy / kLanes - begin];

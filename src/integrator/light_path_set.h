@@ -70,7 +70,8 @@ class LightPathSet {
   std::vector<std::size_t> ends_;      // [bundle], in blocks_
   std::vector<LightVertex> vertices_;  // [block][lane]
   std::vector<float> p_kept_;          // [block][lane]
-  std::vector<std::size_t> glossy_;    // vertices on surfaces that are not diffuse, in their order
+  std::vector<std::size_t>
+      glossy_;  // vertices whose surface is not diffuse or not flat, in their order
 };
 
 template <class SeenFrom>

@@ -45,6 +45,7 @@ LightTracer::LightTracer(const Scene& scene, int max_scatterings)
       return;
     }
     lamps_.push_back({.light = &light,
+                      .p = somewhere->ray.o,
                       .medium = scene_.medium_at(somewhere->ray.o).medium,
                       .power = pivot->intensity,
                       .is_point = pivot->radius == 0.0f});
@@ -56,7 +57,7 @@ void LightTracer::trace(const Lamp& lamp, const Vec2& u_direction, float weight,
   const auto emitted = lamp.light->emit(sampler.next_2d(), u_direction);
   const Rgb power = weight * emitted->power;
   Path path{.ray = emitted->ray,
-            .medium = lamp.medium,
+            .medium = scene_.medium_beside(lamp.p, lamp.medium, emitted->ray.o),
             .power = power,
             .full_power = max_component(power),
             .sees_point = lamp.is_point};
@@ -128,10 +129,8 @@ bool LightTracer::interact_with_surface(Path& path, const Hit& hit, Sampler& sam
   // What a path from the camera would be worth, seen from the other end: refraction does not
   // concentrate power as it does radiance, and cosines to the shading normal change places.
   path.power *= next->weight * (next->eta * next->eta);
-  if (next->pdf < kInfinity) {
-    path.power *= std::abs((wi.z * glm::dot(d, hit.n)) / (next->wi.z * cos_here));
-    path.sees_point = false;
-  }
+  path.power *= std::abs((wi.z * glm::dot(d, hit.n)) / (next->wi.z * cos_here));
+  if (next->pdf < kInfinity) path.sees_point = false;
   path.medium = scene_.medium_toward(hit, -path.ray.d, d, path.medium);
   path.ray = hit.leave(d);
   return !path.sees_point && survives_roulette(path, sampler);

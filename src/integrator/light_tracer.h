@@ -33,7 +33,8 @@ class LightTracer {
 
   struct Lamp {
     const Light* light;
-    const Medium* medium;  // around it
+    Vec3 p;                // somewhere on it [unit]
+    const Medium* medium;  // around `p`
     float power;           // roughly, for a choice among lamps
     bool is_point;
   };

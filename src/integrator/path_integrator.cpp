@@ -115,7 +115,8 @@ PathIntegrator::Path PathIntegrator::trace(const CameraRay& camera_ray, const Me
       path.beta *= flight.weight;
       if (may_scatter(path)) light_segment(path, segment, flight, sampler);
       // What the camera sees through fog is lit whether or not this path gets there.
-      is_lit = hit && path.depth == 0 && around.has_closed_form();
+      is_lit =
+          hit && path.depth == 0 && around.has_closed_form() && scene_.bsdf(*hit).has_smooth_lobe();
       if (is_lit) {
         const Rgb T = around.transmittance(path.ray, hit->t, sampler.rng());
         light_surface(path, *hit, segment.beta * T, sampler);

@@ -16,6 +16,7 @@ class SimilarMedium final : public Medium {
   Rgb transmittance(const Ray& ray, float t_max, Rng& rng) const override {
     return exact_->transmittance(ray, t_max, rng);
   }
+  bool has_closed_form() const override { return exact_->has_closed_form(); }
   std::optional<ScatteringAt> scattering_at(const Ray& ray, float t,
                                             const Rgb& beta) const override {
     return exact_->scattering_at(ray, t, beta);

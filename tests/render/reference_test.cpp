@@ -86,5 +86,17 @@ TEST(ReferenceScenes, UseEveryMediumMaterialAndLightOfTheSceneLanguage) {
   }
 }
 
+TEST(ReferenceScenes, MeetLightPathsInSomeAndNoneInOthers) {
+  std::set<std::string> meet;
+  for (const ReferenceScene& reference : reference_scenes()) {
+    const TestScene scene(reference.xml, write_reference_files);
+    const LoadedScene& loaded = scene.loaded();
+    if (PathIntegrator(*loaded.scene, *loaded.camera, loaded.path).meets_light_paths())
+      meet.insert(reference.name);
+  }
+  EXPECT_THAT(meet, ::testing::IsSupersetOf({"FoggyRoom", "LampsInFog", "ManyLights"}));
+  EXPECT_LT(meet.size(), reference_scenes().size());
+}
+
 }  // namespace
 }  // namespace brume::test

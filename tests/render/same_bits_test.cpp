@@ -59,26 +59,56 @@ const char* const kScene = R"(<scene version="3.0.0">
   </sensor>
 </scene>)";
 
-/// The developed picture, every layer of it.
-Image rendered(const TestScene& scene, int threads, std::uint32_t spp) {
-  Film film(std::uint32_t(scene.width()), std::uint32_t(scene.height()),
+/// A closed room full of fog in which pixels share light paths.
+const char* const kRoom = R"(<scene version="3.0.0">
+  <medium type="homogeneous">
+    <rgb name="sigma_t" value="0.3, 0.4, 0.5"/>
+    <phase type="hg"><float name="g" value="0.4"/></phase>
+  </medium>
+  <shape type="cube">
+    <boolean name="flip_normals" value="true"/>
+    <transform name="to_world"><scale value="2"/></transform>
+  </shape>
+  <shape type="sphere">
+    <point name="center" value="0.7, -1, -0.5"/><float name="radius" value="0.7"/>
+    <bsdf type="roughconductor"><float name="alpha" value="0.3"/></bsdf>
+  </shape>
+  <shape type="rectangle">
+    <transform name="to_world"><rotate x="1" angle="90"/><translate y="1.9"/></transform>
+    <emitter type="area"><rgb name="radiance" value="5, 4, 3"/></emitter>
+  </shape>
+  <emitter type="point"><point name="position" value="-1, 0.5, -1"/></emitter>
+  <sensor type="perspective">
+    <float name="fov" value="70"/>
+    <transform name="to_world">
+      <lookat origin="0.1, 0.2, 1.8" target="0, -0.3, -1" up="0, 1, 0"/>
+    </transform>
+    <film type="hdrfilm">
+      <integer name="width" value="29"/><integer name="height" value="22"/>
+    </film>
+  </sensor>
+</scene>)";
+
+/// The developed picture, every layer of it, or the part of it that begins at column `left` and
+/// row `top`.
+Image rendered(const TestScene& scene, int threads, std::uint32_t spp, std::uint32_t left = 0,
+               std::uint32_t top = 0) {
+  Film film(std::uint32_t(scene.width()) - left, std::uint32_t(scene.height()) - top,
             {.albedo = true, .depth = true});
   const PathIntegrator integrator(*scene.loaded().scene, *scene.loaded().camera,
                                   scene.loaded().path);
   const auto sample = [&](std::uint32_t x, std::uint32_t y, std::uint32_t index) {
-    Sampler sampler(0, y * std::uint32_t(scene.width()) + x, index);
-    return integrator.sample(scene.film_point(int(x), int(y), sampler), sampler);
+    const std::uint32_t column = left + x, row = top + y;
+    Sampler sampler(0, row * std::uint32_t(scene.width()) + column, index);
+    const Vec2 film_point = scene.film_point(int(column), int(row), sampler);
+    constexpr std::uint32_t kSpacing = 3;  // of pixels that share light paths
+    return integrator.sample(film_point, sampler, row % kSpacing * kSpacing + column % kSpacing);
   };
   render(sample, {.spp = spp, .threads = threads}, film);
   return develop(film);
 }
 
-TEST(SameBits, ForOneTwoAndSevenThreads) {
-  const TestScene scene(kScene, [](const TemporaryFolder& folder) {
-    folder.write("cloud.vol", vol_bytes({12, 12, 12}, 1, [](int x, int y, int z, int) {
-                   return (x * y + z) % 7 == 0 ? 25.0 : 2.0;
-                 }));
-  });
+void expect_same_bits(const TestScene& scene) {
   const Image one = rendered(scene, 1, 80);
   for (const int threads : {2, 7}) {
     const Image other = rendered(scene, threads, 80);
@@ -89,6 +119,37 @@ TEST(SameBits, ForOneTwoAndSevenThreads) {
   }
   // Another number of samples is another picture, so that equal bits say something.
   EXPECT_NE(rendered(scene, 2, 79).pixels, one.pixels);
+}
+
+TEST(SameBits, ForOneTwoAndSevenThreads) {
+  const TestScene scene(kScene, [](const TemporaryFolder& folder) {
+    folder.write("cloud.vol", vol_bytes({12, 12, 12}, 1, [](int x, int y, int z, int) {
+                   return (x * y + z) % 7 == 0 ? 25.0 : 2.0;
+                 }));
+  });
+  expect_same_bits(scene);
+}
+
+TEST(SameBits, ForOneTwoAndSevenThreadsThatShareLightPaths) {
+  const TestScene scene(kRoom);
+  ASSERT_TRUE(PathIntegrator(*scene.loaded().scene, *scene.loaded().camera, scene.loaded().path)
+                  .meets_light_paths());
+  expect_same_bits(scene);
+}
+
+TEST(SameBits, ForAPixelInThePictureAndInAPartOfIt) {
+  const TestScene scene(kRoom);
+  constexpr std::uint32_t kLeft = 11, kTop = 7;
+  const Image whole = rendered(scene, 2, 48), part = rendered(scene, 2, 48, kLeft, kTop);
+  const std::size_t channels = whole.channels.size();
+  ASSERT_EQ(part.channels.size(), channels);
+  for (int y = 0; y < part.height; ++y) {
+    const float* of_whole =
+        &whole.pixels[(std::size_t(y + int(kTop)) * std::size_t(whole.width) + kLeft) * channels];
+    const float* of_part = &part.pixels[std::size_t(y) * std::size_t(part.width) * channels];
+    EXPECT_EQ(std::memcmp(of_whole, of_part, std::size_t(part.width) * channels * sizeof(float)), 0)
+        << "row " << y;
+  }
 }
 
 }  // namespace
