@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kReceivers = 1024;
 /// Places in a bundle that are aimed at, and the light paths that it has at most for that.
-constexpr float kPlacesPerBundle = 32.0f;
+constexpr float kPlacesPerBundle = 64.0f;
 constexpr int kMostPathsPerBundle = 512;
 /// Light paths are worth it where they would bring at least this share of the light, judged by the
 /// distances that light travels between two scatterings.

@@ -18,6 +18,10 @@ constexpr int kLongPath = 3000, kLostPath = 100'000;
 constexpr int kDepthThatSeeksLights = 2;
 /// How much more likely a path is to go on than by the share of light that light paths leave to it.
 constexpr float kSurvivalPerShare = 2.0f;
+/// Where light paths are met, the camera's flight through a medium in closed form splits into one
+/// path that passes and others that scatter, as many as this times the share of light that they
+/// stand for, up to a most.
+constexpr float kPathsPerShare = 8.0f, kMostScattered = 2.0f;
 /// Paths that have scattered from which the brightness of what scatters is learnt, and the camera
 /// samples after which the search for them ends.
 constexpr int kScatteredSamples = 64, kMostPilotSamples = 4096;
@@ -49,10 +53,11 @@ struct PathIntegrator::Path {
   float eta_squared = 1.0f;  // of refractions so far, which beta carries and roulette must not see
   int depth = 0;             // scattering events
   int segments = 0;          // flights, through index-matched boundaries too
+  int flights = 0;           // those of the paths that it split into, too
   CameraSample first{};      // albedo and depth of the first event
   float t_first = 0.0f;      // length of the flights before it [unit]
-  std::shared_ptr<const LightPathSet> light{};  // paths to be met; null: none
-  std::uint32_t bundle = 0;                     // of `light`
+  const LightPathSet* light{};  // paths to be met; null: none
+  std::uint32_t bundle = 0;     // of `light`
 };
 
 PathIntegrator::PathIntegrator(const Scene& scene, const Camera& camera,
@@ -91,16 +96,22 @@ float PathIntegrator::share_of_escape(const Rgb& background) const {
 PathIntegrator::Path PathIntegrator::trace(const CameraRay& camera_ray, const Medium* medium,
                                            Sampler& sampler, std::uint32_t group) const {
   Path path{.ray = camera_ray.ray, .t_max = camera_ray.t_max, .medium = medium};
+  std::shared_ptr<const LightPathSet> light;
   if (light_paths_ != nullptr) {
-    path.light = light_paths_->of(sampler.block_seed(), group);
+    light = light_paths_->of(sampler.block_seed(), group);
+    path.light = light.get();
     path.bundle = sampler.index_in_block();
   }
+  follow(path, sampler);
+  return path;
+}
 
+void PathIntegrator::follow(Path& path, Sampler& sampler) const {
   for (bool alive = true; alive; ++path.segments) {
+    ++path.flights;
     sampler.begin_flight(std::uint32_t(path.segments));
     const auto hit = scene_.intersect(path.ray, path.t_max);
     if (hit) add_emission(path, *hit, sampler);
-    bool is_lit = false;
     if (!hit && !(path.t_max < kInfinity)) path.medium = scene_.medium_to_infinity(path.medium);
     if (path.medium != nullptr) {
       const Medium& around = medium_around(path);
@@ -110,23 +121,18 @@ PathIntegrator::Path PathIntegrator::trace(const CameraRay& camera_ray, const Me
           .beta = path.beta,
           .medium = &around,
           .seeks_lights = settings_.lighting.near_lights && path.depth < kDepthThatSeeksLights};
-      const FreeFlight flight =
-          around.sample_free_flight(path.ray, segment.t_end, path.beta, sampler);
-      path.beta *= flight.weight;
-      if (may_scatter(path)) light_segment(path, segment, flight, sampler);
-      // What the camera sees through fog is lit whether or not this path gets there.
-      is_lit =
-          hit && path.depth == 0 && around.has_closed_form() && scene_.bsdf(*hit).has_smooth_lobe();
-      if (is_lit) {
-        const Rgb T = around.transmittance(path.ray, hit->t, sampler.rng());
-        light_surface(path, *hit, segment.beta * T, sampler);
+      if (path.light == nullptr || path.depth > 0 || !split(path, segment, sampler)) {
+        const FreeFlight flight =
+            around.sample_free_flight(path.ray, segment.t_end, path.beta, sampler);
+        path.beta *= flight.weight;
+        if (may_scatter(path)) light_segment(path, segment, flight, sampler);
+        if (flight.scattered && !is_black(path.beta)) {
+          alive =
+              scatter_in_medium(path, segment, flight, sampler) && survives_roulette(path, sampler);
+          continue;
+        }
       }
       if (is_black(path.beta)) break;
-      if (flight.scattered) {
-        alive =
-            scatter_in_medium(path, segment, flight, sampler) && survives_roulette(path, sampler);
-        continue;
-      }
     }
     if (!hit) {
       if (path.depth > 0)
@@ -135,9 +141,62 @@ PathIntegrator::Path PathIntegrator::trace(const CameraRay& camera_ray, const Me
         path.escaped = path.beta;
       break;
     }
-    alive = interact_with_surface(path, *hit, is_lit, sampler) && survives_roulette(path, sampler);
+    alive = interact_with_surface(path, *hit, sampler) && survives_roulette(path, sampler);
   }
-  return path;
+}
+
+bool PathIntegrator::split(Path& path, Segment segment, Sampler& sampler) const {
+  if (!may_scatter(path)) return false;
+  const auto p_scatter =
+      segment.medium->probability_of_scattering(segment.ray, segment.t_end, segment.beta);
+  if (!p_scatter) return false;
+  const float share = max_component(path.beta);
+
+  const float wanted = std::min(kPathsPerShare * *p_scatter * share, kMostScattered);
+  if (wanted > 0.0f) {
+    const int count = std::min(int(wanted + sampler.rng().next_float()), int(kMostScattered));
+    segment.p_scatter = *p_scatter;
+    segment.beta /= wanted;
+    const bool is_scattering_first = sampler.rng().next_float() < *p_scatter;
+    for (int i = 0; i < std::max(count, 1); ++i) {
+      Sampler own = sampler.split(std::uint32_t(i), std::uint32_t(kMostScattered));
+      const FreeFlight flight =
+          segment.medium->sample_scattering(segment.ray, segment.t_end, segment.beta, own);
+      if (i == 0 && is_scattering_first) see_first(path, flight);
+      if (i < count) follow_scattered(path, segment, flight, own);
+    }
+  }
+
+  path.beta *= segment.medium->transmittance(segment.ray, segment.t_end, sampler.rng());
+  if (!std::isfinite(segment.t_end)) return true;  // nothing is there that would cost time
+  const float p_pass = std::min(kPathsPerShare * max_component(path.beta), 1.0f);
+  if (sampler.rng().next_float() < p_pass)
+    path.beta /= p_pass;
+  else
+    path.beta = Rgb{0.0f};
+  return true;
+}
+
+void PathIntegrator::follow_scattered(Path& path, const Segment& segment, const FreeFlight& flight,
+                                      Sampler& sampler) const {
+  Path scattered = path;
+  scattered.L = Rgb{0.0f};
+  scattered.flights = 1;
+  scattered.beta = segment.beta * flight.weight * segment.p_scatter;
+  light_segment(scattered, segment, flight, sampler);
+  if (scatter_in_medium(scattered, segment, flight, sampler) &&
+      survives_roulette(scattered, sampler)) {
+    ++scattered.segments;
+    follow(scattered, sampler);
+  }
+  path.L += scattered.L;
+  path.flights += scattered.flights;
+}
+
+void PathIntegrator::see_first(Path& path, const FreeFlight& flight) const {
+  if (std::isfinite(path.first.depth)) return;
+  path.first.depth = path.t_first + flight.t;
+  path.first.albedo = glm::min(flight.weight, Rgb{1.0f});
 }
 
 CameraSample PathIntegrator::sample(const Vec2& film, Sampler& sampler, std::uint32_t group) const {
@@ -157,7 +216,7 @@ CameraSample PathIntegrator::sample(const Vec2& film, Sampler& sampler, std::uin
   CameraSample result = path.first;
   result.alpha = 1.0f - std::min(mean(T), 1.0f);  // by rounding T may be more
   result.L = path.L + background * T;
-  result.work = 1.0f + float(path.segments);
+  result.work = float(path.flights);
   return result;
 }
 
@@ -201,10 +260,11 @@ void PathIntegrator::light_segment(Path& path, const Segment& segment, const Fre
     if (!light) return;
     const auto scattering = segment.medium->scattering_at(segment.ray, point.t, segment.beta);
     const float value = scattering->phase.eval(d, light->d);
-    const float density =
-        (1.0f - lighting.p_near()) * scattering->pdf * scene_.lights().probability(p, point.light) +
-        lighting.p_near() * point.pdf;
-    const float weight = power_heuristic(density * light->pdf, scattering->pdf * value);
+    const float density = (1.0f - lighting.p_near()) * scattering->pdf / segment.p_scatter *
+                              scene_.lights().probability(p, point.light) +
+                          lighting.p_near() * point.pdf;
+    const float weight =
+        power_heuristic(density * light->pdf, scattering->pdf / segment.p_scatter * value);
     connect(path, p, *light, left * segment.beta * scattering->value / density, value * weight,
             sampler);
     return;
@@ -332,10 +392,7 @@ void PathIntegrator::meet(Path& path, const Ray& ray, const LightVertex& vertex,
 
 bool PathIntegrator::scatter_in_medium(Path& path, const Segment& segment, const FreeFlight& flight,
                                        Sampler& sampler) const {
-  if (!std::isfinite(path.first.depth)) {
-    path.first.depth = path.t_first + flight.t;
-    path.first.albedo = glm::min(flight.weight, Rgb{1.0f});
-  }
+  see_first(path, flight);
   if (!may_scatter(path)) return false;
   ++path.depth;
   const Vec3 p = path.ray.at(flight.t);
@@ -356,8 +413,7 @@ bool PathIntegrator::scatter_in_medium(Path& path, const Segment& segment, const
   return true;
 }
 
-bool PathIntegrator::interact_with_surface(Path& path, const Hit& hit, bool is_lit,
-                                           Sampler& sampler) const {
+bool PathIntegrator::interact_with_surface(Path& path, const Hit& hit, Sampler& sampler) const {
   const Bsdf& bsdf = scene_.bsdf(hit);
   const Frame frame(hit.n_shading, hit.dp_du);
   const Vec3 wo = frame.to_local(-path.ray.d);
@@ -367,7 +423,7 @@ bool PathIntegrator::interact_with_surface(Path& path, const Hit& hit, bool is_l
   const Rgb beta = path.beta;
   if (meets) path.beta *= left_by_light_paths(path, hit.p, sampler);
   if (bsdf.has_smooth_lobe() && may_scatter(path) && !is_black(path.beta)) {
-    if (!is_lit) light_surface(path, hit, path.beta, sampler);
+    light_surface(path, hit, path.beta, sampler);
     if (meets) meet_light_paths(path, hit, sampler);
   }
 

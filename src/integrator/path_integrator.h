@@ -37,6 +37,20 @@ class PathIntegrator {
   Path trace(const CameraRay& camera_ray, const Medium* medium, Sampler& sampler,
              std::uint32_t group) const;
 
+  /// Goes on with a path until it leaves the scene or ends.
+  void follow(Path& path, Sampler& sampler) const;
+
+  /// The camera's flight along `segment` both scatters and passes: follows paths that scatter and
+  /// leaves `path` with the light that passes, or black. Whether this can be done: it needs a
+  /// medium in closed form. Light that scatters and light that does not are thus both found by each
+  /// sample, as in the forced collisions of Villemin et al. 2018.
+  bool split(Path& path, Segment segment, Sampler& sampler) const;
+  /// Adds to `path` the light of another path, which scatters where `flight` did.
+  void follow_scattered(Path& path, const Segment& segment, const FreeFlight& flight,
+                        Sampler& sampler) const;
+  /// Notes what the path meets first, if nothing was before.
+  void see_first(Path& path, const FreeFlight& flight) const;
+
   /// Roughly the radiance of light that scattered on its way to the camera, as luminance
   /// [W/(m^2 sr)]; 0 if none was found.
   float learn_scattered_luminance() const;
@@ -67,7 +81,7 @@ class PathIntegrator {
   // Each returns whether the path goes on.
   bool scatter_in_medium(Path& path, const Segment& segment, const FreeFlight& flight,
                          Sampler& sampler) const;
-  bool interact_with_surface(Path& path, const Hit& hit, bool is_lit, Sampler& sampler) const;
+  bool interact_with_surface(Path& path, const Hit& hit, Sampler& sampler) const;
   bool survives_roulette(Path& path, Sampler& sampler) const;
 
   bool may_scatter(const Path& path) const;

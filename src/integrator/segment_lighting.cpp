@@ -24,27 +24,63 @@ struct Foot {
 };
 
 /// Points of the segment, dense where it is near to a light: uniform in the angle at the pivot, in
-/// the plane of pivot and ray.
+/// the plane of pivot and ray, as far as light leaves the pivot toward them. Angles are counted
+/// from the segment's begin.
 struct EquiangularPoints {
   Foot foot;
-  double angle;  // that the segment spans [rad], positive however short the segment is
+  double begin = 0.0, end;  // [rad]
+  bool is_lit = true;       // or no light leaves the pivot toward the segment
+  bool is_clipped = false;  // to what is lit
 
   EquiangularPoints(const Light::Pivot& pivot, const Segment& segment) : foot(pivot, segment) {
     const double h = foot.height;
-    angle = std::isfinite(segment.t_end)
-                ? std::atan2(h * segment.t_end, h * h + foot.t * (foot.t - segment.t_end))
-                : 0.5 * M_PI + std::atan2(foot.t, h);
+    // Positive however short the segment is.
+    end = std::isfinite(segment.t_end)
+              ? std::atan2(h * segment.t_end, h * h + foot.t * (foot.t - segment.t_end))
+              : 0.5 * M_PI + std::atan2(foot.t, h);
+    if (pivot.cos_cutoff > 0.0f) clip(pivot, segment);
   }
 
-  /// foot.t + height tan(angle of the origin + u angle) as one fraction, in which nothing cancels.
-  double t(double u) const {
-    const double tangent = std::tan(u * angle);
+  /// foot.t + height tan(angle of the origin + angle) as one fraction, in which nothing cancels.
+  double t(double angle) const {
+    const double tangent = std::tan(angle);
     return tangent * (foot.height * foot.height + foot.t * foot.t) /
            (foot.height + foot.t * tangent);
   }
   double pdf(double at_t) const {
     const double along = at_t - foot.t;
-    return foot.height / (angle * (foot.height * foot.height + along * along));
+    return foot.height / ((end - begin) * (foot.height * foot.height + along * along));
+  }
+  /// Whether a point of the segment is one of them.
+  bool contain(double at_t) const {
+    if (!is_clipped) return true;
+    const double angle = std::atan2(at_t - foot.t, foot.height) + std::atan2(foot.t, foot.height);
+    return begin <= angle && angle <= end;
+  }
+  /// Of the point where the light is about the strongest.
+  double brightest_angle() const {
+    const double margin = 0.25 * (end - begin);
+    return std::clamp(std::atan2(foot.t, foot.height), begin + margin, end - margin);
+  }
+
+ private:
+  /// Leaves the angles that lie in the light's cone, if any do. A direction of the plane makes an
+  /// angle with the axis whose cosine is `central` times that of the angle to the most central
+  /// direction.
+  void clip(const Light::Pivot& pivot, const Segment& segment) {
+    const glm::dvec3 d(segment.ray.d), axis(pivot.axis);
+    const glm::dvec3 to_foot = glm::dvec3(segment.ray.o) + foot.t * d - glm::dvec3(pivot.center);
+    const double across = glm::length(to_foot);
+    const double x = across > 0.0 ? glm::dot(axis, to_foot) / across : 0.0, y = glm::dot(axis, d);
+    const double central = std::hypot(x, y);
+    const double cosine = double(pivot.cos_cutoff) / central;
+    const double half = cosine < 1.0 ? std::acos(cosine) : 0.0;
+    const double middle = std::atan2(y, x) + std::atan2(foot.t, foot.height);
+    const double first = std::max(begin, middle - half), last = std::min(end, middle + half);
+    is_lit = is_clipped = first < last;
+    if (!is_lit) return;
+    begin = first;
+    end = last;
   }
 };
 
@@ -69,9 +105,15 @@ struct SegmentLighting::Weights {
  private:
   float weight(std::size_t index) const {
     const Light& light = of.lights_.light(index);
-    const Foot foot(*light.pivot(), of.segment_);
+    const Light::Pivot pivot = *light.pivot();
+    const Foot foot(pivot, of.segment_);
     if (!(foot.height > 0.0)) return 0.0f;
-    const float t = nearest(foot);
+    float t = nearest(foot);
+    if (pivot.cos_cutoff > 0.0f) {
+      const EquiangularPoints points(pivot, of.segment_);
+      if (!points.is_lit) return 0.0f;
+      t = std::clamp(float(points.t(points.brightest_angle())), 0.0f, of.segment_.t_end);
+    }
     return light.importance(of.segment_.ray.at(t)) * share_left(t);
   }
   float nearest(const Foot& foot) const {
@@ -107,14 +149,16 @@ SegmentLighting::SegmentLighting(const LightSet& lights, const Segment& segment)
 SegmentLighting::Point SegmentLighting::sample(float u_choice, float u) const {
   const auto [chosen, p_chosen] = lights_.lights_with_pivot().sample(weights(), odds_, u_choice);
   const EquiangularPoints points(*lights_.light(chosen).pivot(), segment_);
-  const float t = std::clamp(float(points.t(u)), 0.0f, segment_.t_end);
+  const double angle = points.begin + u * (points.end - points.begin);
+  const float t = std::clamp(float(points.t(angle)), 0.0f, segment_.t_end);
   return {.light = chosen, .t = t, .pdf = p_chosen * float(points.pdf(t))};
 }
 
 float SegmentLighting::pdf(std::size_t light, float t) const {
   const float p = lights_.lights_with_pivot().probability(weights(), odds_, light);
-  return p > 0.0f ? p * float(EquiangularPoints(*lights_.light(light).pivot(), segment_).pdf(t))
-                  : 0.0f;
+  if (!(p > 0.0f)) return 0.0f;
+  const EquiangularPoints points(*lights_.light(light).pivot(), segment_);
+  return points.contain(t) ? p * float(points.pdf(t)) : 0.0f;
 }
 
 float SegmentLighting::choice(std::size_t light, float t, float p_choice) const {
@@ -122,7 +166,7 @@ float SegmentLighting::choice(std::size_t light, float t, float p_choice) const 
   const float at_end = (1.0f - p_near_) * p_choice;
   if (!lights_.lights_with_pivot().contains(light)) return at_end;
   const auto scattering = segment_.medium->scattering_at(segment_.ray, t, segment_.beta);
-  return at_end + p_near_ * pdf(light, t) / scattering->pdf;
+  return at_end + p_near_ * pdf(light, t) * segment_.p_scatter / scattering->pdf;
 }
 
 }  // namespace brume

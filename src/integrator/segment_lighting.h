@@ -14,7 +14,8 @@ struct Segment {
   float t_end;
   Rgb beta;
   const Medium* medium;
-  bool seeks_lights;  // whether points near lights are worth their cost
+  bool seeks_lights;       // whether points near lights are worth their cost
+  float p_scatter = 1.0f;  // of flights along it, where it stands for those that scatter; else 1
 };
 
 /// Where along a segment to look for light: near the lights, where flights seldom happen to end.

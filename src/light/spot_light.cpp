@@ -9,6 +9,18 @@
 #include "light/toward.h"
 
 namespace brume {
+namespace {
+
+/// Whether a matrix of determinant 1 or -1 keeps angles.
+bool is_similarity(const glm::dmat3& m) {
+  const glm::dmat3 squared = glm::transpose(m) * m;
+  for (int column = 0; column < 3; ++column)
+    for (int row = 0; row < 3; ++row)
+      if (std::abs(squared[column][row] - (column == row ? 1.0 : 0.0)) > 1e-5) return false;
+  return true;
+}
+
+}  // namespace
 
 SpotLight::SpotLight(const glm::dmat4& to_world, const Rgb& intensity, float cutoff_angle,
                      float beam_width)
@@ -71,7 +83,12 @@ float SpotLight::importance(const Vec3& p) const {
 }
 
 std::optional<Light::Pivot> SpotLight::pivot() const {
-  return Pivot{.center = position_, .radius = 0.0f, .intensity = finite(luminance(intensity_))};
+  Pivot pivot{.center = position_, .radius = 0.0f, .intensity = finite(luminance(intensity_))};
+  if (is_similarity(to_world_) && cutoff_angle_ < 0.5f * kPi) {
+    pivot.axis = glm::normalize(Vec3(to_world_[2]));
+    pivot.cos_cutoff = std::cos(cutoff_angle_);
+  }
+  return pivot;
 }
 
 }  // namespace brume

@@ -14,6 +14,11 @@ Rgb HomogeneousMedium::transmittance(float distance) const {
   return glm::exp(-sigma_t_ * std::min(distance, std::numeric_limits<float>::max()));
 }
 
+Rgb HomogeneousMedium::opacity(float distance) const {
+  const Rgb tau = sigma_t_ * std::min(distance, std::numeric_limits<float>::max());
+  return {-std::expm1(-tau.r), -std::expm1(-tau.g), -std::expm1(-tau.b)};
+}
+
 float HomogeneousMedium::sample_distance(int channel, float u) const {
   const float sigma_t = sigma_t_[channel];
   return sigma_t > 0.0f ? -std::log1p(-u) / sigma_t : kInfinity;
@@ -38,6 +43,26 @@ FreeFlight HomogeneousMedium::sample_free_flight(const Ray& /*ray*/, float t_max
     const float p_pass = glm::dot(p_channel, T);
     return {.t = t_max, .weight = p_pass > 0.0f ? T / p_pass : Rgb{0.0f}};
   }
+  return scattered_at(t, p_channel);
+}
+
+std::optional<float> HomogeneousMedium::probability_of_scattering(const Ray& /*ray*/, float t_max,
+                                                                  const Rgb& beta) const {
+  if (is_black(albedo_)) return 0.0f;
+  return glm::dot(normalized_or_uniform(beta), opacity(t_max));
+}
+
+FreeFlight HomogeneousMedium::sample_scattering(const Ray& /*ray*/, float t_max, const Rgb& beta,
+                                                Sampler& sampler) const {
+  const Vec2 u = sampler.next_2d();
+  const Rgb p_channel = normalized_or_uniform(beta);
+  const Rgb collides = opacity(t_max);
+  const int channel = sample_channel(normalized_or_uniform(p_channel * collides), u.y);
+  const float t = std::min(sample_distance(channel, u.x * collides[channel]), t_max);
+  return scattered_at(t, p_channel);
+}
+
+FreeFlight HomogeneousMedium::scattered_at(float t, const Rgb& p_channel) const {
   // The density of t is p_channel . (sigma_t T). Taking out the largest T keeps the ratio finite
   // where both underflow.
   const Rgb tau = sigma_t_ * t;

@@ -30,12 +30,20 @@ class HomogeneousMedium final : public Medium {
   FreeFlight sample_free_flight(const Ray& ray, float t_max, const Rgb& beta,
                                 Sampler& sampler) const override;
   Rgb transmittance(const Ray& ray, float t_max, Rng& rng) const override;
-  bool has_closed_form() const override { return true; }
+  std::optional<float> probability_of_scattering(const Ray& ray, float t_max,
+                                                 const Rgb& beta) const override;
+  FreeFlight sample_scattering(const Ray& ray, float t_max, const Rgb& beta,
+                               Sampler& sampler) const override;
   std::optional<ScatteringAt> scattering_at(const Ray& ray, float t,
                                             const Rgb& beta) const override;
   MediumSummary summary() const override;
 
  private:
+  /// Probability of a collision within `distance` [unit], exact where it is small.
+  Rgb opacity(float distance) const;
+  /// A flight that scatters at `t`, as `p_channel` proposes it.
+  FreeFlight scattered_at(float t, const Rgb& p_channel) const;
+
   Rgb sigma_t_;  // [1/unit]
   Rgb albedo_;
   HenyeyGreenstein phase_;

@@ -44,8 +44,18 @@ class Medium {
   /// Unbiased estimate of exp(-int_0^t_max sigma_t dt); exact where a closed form exists.
   virtual Rgb transmittance(const Ray& ray, float t_max, Rng& rng) const = 0;
 
-  /// Whether transmittance is known, so that it costs next to nothing, and `scattering_at` with it.
-  virtual bool has_closed_form() const { return false; }
+  /// Probability with which `sample_free_flight` scatters, where it is known in closed form.
+  /// Transmittance is then exact, and `scattering_at` is known too.
+  virtual std::optional<float> probability_of_scattering(const Ray& /*ray*/, float /*t_max*/,
+                                                         const Rgb& /*beta*/) const {
+    return std::nullopt;
+  }
+  /// One of the flights of `sample_free_flight` that scatter, with the same weight. Precondition:
+  /// the probability that one does is known and positive.
+  virtual FreeFlight sample_scattering(const Ray& ray, float t_max, const Rgb& beta,
+                                       Sampler& sampler) const {
+    return sample_free_flight(ray, t_max, beta, sampler);
+  }
 
   /// Scattering at a point of a flight, where it is known in closed form.
   struct ScatteringAt {

@@ -16,7 +16,14 @@ class SimilarMedium final : public Medium {
   Rgb transmittance(const Ray& ray, float t_max, Rng& rng) const override {
     return exact_->transmittance(ray, t_max, rng);
   }
-  bool has_closed_form() const override { return exact_->has_closed_form(); }
+  std::optional<float> probability_of_scattering(const Ray& ray, float t_max,
+                                                 const Rgb& beta) const override {
+    return exact_->probability_of_scattering(ray, t_max, beta);
+  }
+  FreeFlight sample_scattering(const Ray& ray, float t_max, const Rgb& beta,
+                               Sampler& sampler) const override {
+    return exact_->sample_scattering(ray, t_max, beta, sampler);
+  }
   std::optional<ScatteringAt> scattering_at(const Ray& ray, float t,
                                             const Rgb& beta) const override {
     return exact_->scattering_at(ray, t, beta);

@@ -89,6 +89,41 @@ TEST_P(HomogeneousFlight, WeightsAreUnbiasedInEveryChannel) {
   }
 }
 
+TEST_P(HomogeneousFlight, ThatIsKnownToScatterBringsTheSameLight) {
+  const Case c = GetParam();
+  const HomogeneousMedium medium(c.sigma_t, c.albedo, {});
+  const float p_scatter = *medium.probability_of_scattering(kRay, c.t_max, c.beta);
+  const float half = std::isfinite(c.t_max) ? 0.5f * c.t_max : 1.0f / c.sigma_t.r;
+  test::RunningMean scatters, scattered[3], near_half[3];
+  for (int i = 0; i < 400000; ++i) {
+    Sampler sampler(13, 0, i, true), other(14, 0, i, true);
+    scatters.add(medium.sample_free_flight(kRay, c.t_max, c.beta, other).scattered);
+    const FreeFlight flight = medium.sample_scattering(kRay, c.t_max, c.beta, sampler);
+    ASSERT_TRUE(flight.scattered);
+    ASSERT_LE(flight.t, c.t_max);
+    for (int k = 0; k < 3; ++k) {
+      scattered[k].add(p_scatter * flight.weight[k]);
+      near_half[k].add(flight.t < half ? p_scatter * flight.weight[k] : 0.0f);
+    }
+  }
+  EXPECT_TRUE(test::agrees(scatters, p_scatter));
+  for (int k = 0; k < 3; ++k) {
+    const double T = c.sigma_t[k] > 0.0f ? std::exp(-double(c.sigma_t[k]) * c.t_max) : 1.0;
+    const double T_half = std::exp(-double(c.sigma_t[k]) * half);
+    EXPECT_TRUE(test::agrees(scattered[k], c.albedo[k] * (1.0 - T), 1e-6));
+    EXPECT_TRUE(test::agrees(near_half[k], c.albedo[k] * (1.0 - T_half), 1e-6));
+  }
+}
+
+TEST(HomogeneousMedium, ThinMediaHaveAnExactProbabilityOfScattering) {
+  const HomogeneousMedium medium(Rgb(1e-12f), Rgb(0.5f), {});
+  EXPECT_FLOAT_EQ(*medium.probability_of_scattering(kRay, 2.0f, Rgb(1.0f)), 2e-12f);
+  Sampler sampler(1, 0, 0);
+  const FreeFlight flight = medium.sample_scattering(kRay, 2.0f, Rgb(1.0f), sampler);
+  EXPECT_TRUE(0.0f <= flight.t && flight.t <= 2.0f) << flight.t;
+  EXPECT_NEAR(flight.weight.g, 0.5f, 1e-6f);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Coefficients, HomogeneousFlight,
     ::testing::Values(Case{Rgb(1.0f), Rgb(0.9f), Rgb(1.0f), 2.0f},
@@ -104,6 +139,7 @@ TEST(HomogeneousMedium, ThatDoesNotScatterSamplesNothing) {
   const FreeFlight flight = medium.sample_free_flight(kRay, 2.0f, Rgb(1.0f), sampler);
   EXPECT_FALSE(flight.scattered);
   EXPECT_EQ(flight.weight, medium.transmittance(2.0f));
+  EXPECT_EQ(medium.probability_of_scattering(kRay, 2.0f, Rgb(1.0f)), 0.0f);
 }
 
 }  // namespace
