@@ -5,7 +5,7 @@
 Renders each scene with many seeds for each target, compares the pictures with a reference, and
 prints a table in Markdown: the share of pictures whose true relative RMSE lies below the claimed
 bound, and quantiles of true error over bound. The reference's own error, which `brume compare` sees
-as well, is subtracted in squares. Takes about an hour of processor time.
+as well, is subtracted in squares. Takes about an hour and a half of processor time.
 
     scripts/calibrate.py [--brume build/release/bin/brume] [--seeds 60] [--scene NAME]...
                          [--target E]...
@@ -18,11 +18,11 @@ import os
 import subprocess
 import tempfile
 
-SCENES = {  # name: size; small, because what is tested does not depend on it
+SCENES = {  # name: size; small, because what is tested does not depend on it, but light paths need 1300
     "smoke_plume_coloured_albedo": "24x18",
     "small_bright_cloud": "24x18",
-    "cornell_box_spheres_area_lights_fog": "12x9",
-    "cornell_box_spheres_god_rays": "12x9",
+    "cornell_box_spheres_area_lights_fog": "40x34",
+    "cornell_box_spheres_god_rays": "40x34",
     "vdb_cloud_sun_sky": "12x9",
 }
 REFERENCE_PART = 0.2  # the reference's error, of the least target

@@ -64,12 +64,10 @@ Sampler::Sampler(std::uint64_t seed, std::uint32_t pixel, std::uint32_t sample, 
       dimension_(independent ? kSobolDimensions : 0),
       rng_(hash_combine(replication_hash_, sample % kReplication), pixel) {}
 
-Sampler Sampler::split(std::uint32_t part, std::uint32_t parts) const {
-  const std::uint32_t index = reverse_bits(reversed_index_) * parts + part;
+Sampler Sampler::split(std::uint32_t part) const {
   Sampler own = *this;
-  own.replication_hash_ = hash_combine(mix_bits(replication_hash_), index / kReplication);
-  own.reversed_index_ = reverse_bits(index % kReplication);
-  own.rng_ = Rng(hash_combine(own.replication_hash_, index % kReplication), dimension_);
+  own.replication_hash_ = hash_combine(mix_bits(replication_hash_), part);
+  own.rng_ = Rng(hash_combine(own.replication_hash_, reversed_index_), dimension_);
   return own;
 }
 

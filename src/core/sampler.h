@@ -24,9 +24,9 @@ class Sampler {
   /// `independent` replaces the Sobol points by the stream.
   Sampler(std::uint64_t seed, std::uint32_t pixel, std::uint32_t sample, bool independent = false);
 
-  /// Of path number `part` of the `parts` into which the sample's path splits here: independent of
-  /// this one, and stratified with the other parts of all samples. Best for powers of two.
-  Sampler split(std::uint32_t part, std::uint32_t parts) const;
+  /// Of path number `part` of those into which the sample's path splits here: independent of this
+  /// one and of the other parts, and stratified with the same part of other samples.
+  Sampler split(std::uint32_t part) const;
 
   float next_1d();
   Vec2 next_2d();

@@ -159,9 +159,9 @@ bool PathIntegrator::split(Path& path, Segment segment, Sampler& sampler) const 
     segment.beta /= wanted;
     const bool is_scattering_first = sampler.rng().next_float() < *p_scatter;
     for (int i = 0; i < std::max(count, 1); ++i) {
-      Sampler own = sampler.split(std::uint32_t(i), std::uint32_t(kMostScattered));
+      Sampler own = sampler.split(std::uint32_t(i));
       const FreeFlight flight =
-          segment.medium->sample_scattering(segment.ray, segment.t_end, segment.beta, own);
+          segment.medium->sample_scattering(segment.ray, segment.t_end, path.beta, own);
       if (i == 0 && is_scattering_first) see_first(path, flight);
       if (i < count) follow_scattered(path, segment, flight, own);
     }
