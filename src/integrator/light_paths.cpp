@@ -37,7 +37,7 @@ LightPaths::LightPaths(const Scene& scene, const Camera& camera, const CameraMed
   const Vec3 size = guide_->bounds().size();
   const float area = 2.0f * (size.x * size.y + size.y * size.z + size.z * size.x);
   reach_ = std::sqrt(places / area);
-  if (!std::isfinite(reach_) || !(reach_ > 0.0f)) return;
+  if (!std::isfinite(reach_squared()) || !(reach_squared() > 0.0f)) return;
   float share = 0.0f;
   for (const float distance : guide_->distances())
     share += (1.0f - camera_share(distance, 0.25f / kPi)) / float(guide_->distances().size());

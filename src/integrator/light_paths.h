@@ -46,11 +46,13 @@ class LightPaths {
     const float far = reach_ * distance;
     return pdf / (pdf + far * far);
   }
-  /// The rest over the squared distance, finite however near the place is [1/unit^2].
+  /// The rest over the squared distance, finite however near the place is [reach_squared()].
   float light_share(float distance, float pdf) const {
     const float far = reach_ * distance;
-    return reach_ * reach_ / (pdf + far * far);
+    return 1.0f / (pdf + far * far);
   }
+  /// Fluence of a bundle over the power of a path [1/unit^2].
+  float reach_squared() const { return reach_ * reach_; }
 
  private:
   std::shared_ptr<const LightPathSet> traced(std::uint64_t seed) const;
@@ -66,7 +68,7 @@ class LightPaths {
   std::optional<LightPathGuide> guide_;  // nothing where no light can be followed
   int paths_per_bundle_ = 0;
   float p_kept_ = 1.0f;  // besides the guide's
-  float reach_ = 0.0f;   // root of the fluence of a bundle over the power of a path [1/unit]
+  float reach_ = 0.0f;   // [1/unit]
   mutable std::array<Slot, kGroups> slots_;
 };
 

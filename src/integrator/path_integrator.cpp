@@ -338,8 +338,7 @@ void PathIntegrator::meet_light_paths(Path& path, const Vec3& p, const HenyeyGre
   const Vec3 d = (choice->vertex->p - p) / distance;
   const float value = phase.eval(d_in, d);
   const float share = light_paths_->light_share(distance, value);
-  meet(path, {p, d}, *choice->vertex, path.medium, path.beta * (choice->weight * share * value),
-       path.depth, sampler);
+  meet(path, {p, d}, *choice, path.medium, path.beta * value, share, path.depth, sampler);
 }
 
 void PathIntegrator::meet_light_paths(Path& path, const Hit& hit, Sampler& sampler) const {
@@ -374,19 +373,23 @@ void PathIntegrator::meet_light_paths(Path& path, const Hit& hit, Sampler& sampl
   const Vec3 wi = frame.to_local(d);
   if (!is_same_side(wi, d, hit)) return;
   const float share = light_paths_->light_share(distance, bsdf.pdf(wo, wi, hit.uv));
-  meet(path, hit.leave(d), *choice->vertex, scene_.medium_toward(hit, -path.ray.d, d, path.medium),
-       path.beta * bsdf.eval(wo, wi, hit.uv) * (choice->weight * share), path.depth + 1, sampler);
+  meet(path, hit.leave(d), *choice, scene_.medium_toward(hit, -path.ray.d, d, path.medium),
+       path.beta * bsdf.eval(wo, wi, hit.uv), share, path.depth + 1, sampler);
 }
 
-void PathIntegrator::meet(Path& path, const Ray& ray, const LightVertex& vertex,
-                          const Medium* medium, const Rgb& beta, int scatterings,
+void PathIntegrator::meet(Path& path, const Ray& ray, const LightPathSet::Choice& choice,
+                          const Medium* medium, const Rgb& beta, float share, int scatterings,
                           Sampler& sampler) const {
+  const LightVertex& vertex = *choice.vertex;
   const Toward toward(
       ray.o, vertex.hit ? vertex.hit->point().end_of_ray_from(ray.o) : glm::dvec3(vertex.p));
   if (!(toward.distance > 0.0)) return;
   const Rgb T =
       scene_.transmittance({ray.o, toward.d}, float(toward.distance), medium, sampler.rng());
-  gather(path, beta * T * vertex.power * scattered_toward(scene_, vertex, -ray.d),
+  // In tiny scenes the one is near the largest float, and the other as small.
+  const Rgb light = vertex.power * light_paths_->reach_squared();
+  gather(path,
+         beta * T * light * scattered_toward(scene_, vertex, -ray.d) * (choice.weight * share),
          scatterings + vertex.scatterings);
 }
 

@@ -72,8 +72,10 @@ class PathIntegrator {
   void meet_light_paths(Path& path, const Vec3& p, const HenyeyGreenstein& phase,
                         Sampler& sampler) const;
   void meet_light_paths(Path& path, const Hit& hit, Sampler& sampler) const;
-  void meet(Path& path, const Ray& ray, const LightVertex& vertex, const Medium* medium,
-            const Rgb& beta, int scatterings, Sampler& sampler) const;
+  /// Adds the light of a chosen vertex that goes along `ray`; `share` as of
+  /// LightPaths::light_share, `beta` without it.
+  void meet(Path& path, const Ray& ray, const LightPathSet::Choice& choice, const Medium* medium,
+            const Rgb& beta, float share, int scatterings, Sampler& sampler) const;
   /// Roulette by what light paths leave to the path of the light that comes from `p`, where it is
   /// about to scatter: 0 where that ends here, or else its weight.
   float left_by_light_paths(const Path& path, const Vec3& p, Sampler& sampler) const;

@@ -42,8 +42,9 @@ TEST(LightPaths, ShareLightWithPathsFromTheCameraWithoutRest) {
     for (int k = -12; k <= 12; ++k) {
       const auto distance = float(std::pow(10.0, i)), pdf = float(std::pow(10.0, k));
       const double of_camera = lit.light_paths.camera_share(distance, pdf);
-      const double of_light =
-          double(distance) * distance * lit.light_paths.light_share(distance, pdf);
+      const double of_light = double(distance) * distance *
+                              double(lit.light_paths.reach_squared()) *
+                              double(lit.light_paths.light_share(distance, pdf));
       EXPECT_NEAR(of_camera + of_light, 1.0, 1e-6) << distance << ", " << pdf;
       EXPECT_GE(of_camera, 0.0);
       EXPECT_GE(of_light, 0.0);
