@@ -18,10 +18,10 @@ constexpr int kLongPath = 3000, kLostPath = 100'000;
 constexpr int kDepthThatSeeksLights = 2;
 /// How much more likely a path is to go on than by the share of light that light paths leave to it.
 constexpr float kSurvivalPerShare = 2.0f;
-/// Where light paths are met, the camera's flight through a medium in closed form splits into one
-/// path that passes and others that scatter, as many as this times the share of light that they
-/// stand for, up to a most.
-constexpr float kPathsPerShare = 8.0f, kMostScattered = 2.0f;
+/// Paths that the camera's flight splits into, over the share of light that they stand for, and how
+/// many scatter at most.
+constexpr float kPathsPerShare = 8.0f;
+constexpr int kMostScattered = 2;
 /// Paths that have scattered from which the brightness of what scatters is learnt, and the camera
 /// samples after which the search for them ends.
 constexpr int kScatteredSamples = 64, kMostPilotSamples = 4096;
@@ -150,11 +150,11 @@ bool PathIntegrator::split(Path& path, Segment segment, Sampler& sampler) const 
   const auto p_scatter =
       segment.medium->probability_of_scattering(segment.ray, segment.t_end, segment.beta);
   if (!p_scatter) return false;
-  const float share = max_component(path.beta);
 
-  const float wanted = std::min(kPathsPerShare * *p_scatter * share, kMostScattered);
+  const float wanted =
+      std::min(kPathsPerShare * *p_scatter * max_component(path.beta), float(kMostScattered));
   if (wanted > 0.0f) {
-    const int count = std::min(int(wanted + sampler.rng().next_float()), int(kMostScattered));
+    const int count = std::min(int(wanted + sampler.rng().next_float()), kMostScattered);
     segment.p_scatter = *p_scatter;
     segment.beta /= wanted;
     const bool is_scattering_first = sampler.rng().next_float() < *p_scatter;
@@ -168,7 +168,7 @@ bool PathIntegrator::split(Path& path, Segment segment, Sampler& sampler) const 
   }
 
   path.beta *= segment.medium->transmittance(segment.ray, segment.t_end, sampler.rng());
-  if (!std::isfinite(segment.t_end)) return true;  // nothing is there that would cost time
+  if (!std::isfinite(segment.t_end)) return true;  // nothing stands there that would cost time
   const float p_pass = std::min(kPathsPerShare * max_component(path.beta), 1.0f);
   if (sampler.rng().next_float() < p_pass)
     path.beta /= p_pass;
@@ -386,7 +386,7 @@ void PathIntegrator::meet(Path& path, const Ray& ray, const LightPathSet::Choice
   if (!(toward.distance > 0.0)) return;
   const Rgb T =
       scene_.transmittance({ray.o, toward.d}, float(toward.distance), medium, sampler.rng());
-  // In tiny scenes the one is near the largest float, and the other as small.
+  // Their product first: in tiny scenes one is near the largest float and the other near the least.
   const Rgb light = vertex.power * light_paths_->reach_squared();
   gather(path,
          beta * T * light * scattered_toward(scene_, vertex, -ray.d) * (choice.weight * share),

@@ -106,13 +106,15 @@ struct SegmentLighting::Weights {
   float weight(std::size_t index) const {
     const Light& light = of.lights_.light(index);
     const Light::Pivot pivot = *light.pivot();
-    const Foot foot(pivot, of.segment_);
-    if (!(foot.height > 0.0)) return 0.0f;
-    float t = nearest(foot);
+    float t;
     if (pivot.cos_cutoff > 0.0f) {
       const EquiangularPoints points(pivot, of.segment_);
-      if (!points.is_lit) return 0.0f;
+      if (!points.is_lit || !(points.foot.height > 0.0)) return 0.0f;
       t = std::clamp(float(points.t(points.brightest_angle())), 0.0f, of.segment_.t_end);
+    } else {
+      const Foot foot(pivot, of.segment_);
+      if (!(foot.height > 0.0)) return 0.0f;
+      t = nearest(foot);
     }
     return light.importance(of.segment_.ray.at(t)) * share_left(t);
   }

@@ -48,8 +48,8 @@ class Light {
     Vec3 center;      // [unit]
     float radius;     // of the light around it, roughly [unit]
     float intensity;  // the importance far away, times squared distance, where it is largest [W]
-    Vec3 axis{0.0f};  // unit, of the cone that all light leaves into; 0: into all directions
-    float cos_cutoff = -1.0f;  // of the cone's half angle, positive where there is one
+    Vec3 axis{0.0f};  // unit, of the cone that all light leaves into, if there is one
+    float cos_cutoff = 0.0f;  // of its half angle; 0 where there is none
   };
   /// Nothing for light from infinitely far away.
   virtual std::optional<Pivot> pivot() const { return std::nullopt; }

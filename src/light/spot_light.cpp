@@ -29,8 +29,14 @@ SpotLight::SpotLight(const glm::dmat4& to_world, const Rgb& intensity, float cut
       to_world_(glm::dmat3(to_world) / std::cbrt(std::abs(glm::determinant(glm::dmat3(to_world))))),
       intensity_(intensity),
       cutoff_angle_(cutoff_angle),
-      beam_width_(beam_width) {
+      beam_width_(beam_width),
+      pivot_{.center = position_, .radius = 0.0f, .intensity = finite(luminance(intensity))} {
   assert(0.0f <= beam_width && beam_width <= cutoff_angle && cutoff_angle <= kPi);
+  // Elliptical cones are left out, and those that are wider than a half-space.
+  if (is_similarity(to_world_) && cutoff_angle < 0.5f * kPi) {
+    pivot_.axis = glm::normalize(Vec3(to_world_[2]));
+    pivot_.cos_cutoff = std::cos(cutoff_angle);
+  }
 }
 
 /// Fraction of the intensity emitted at a local `angle` from the axis.
@@ -80,15 +86,6 @@ std::optional<Light::EmittedLight> SpotLight::emit(const Vec2& /*u_point*/,
 float SpotLight::importance(const Vec3& p) const {
   const Vec3 from_light = p - position_;
   return finite(luminance(intensity_) * falloff(from_light) / length_squared(from_light));
-}
-
-std::optional<Light::Pivot> SpotLight::pivot() const {
-  Pivot pivot{.center = position_, .radius = 0.0f, .intensity = finite(luminance(intensity_))};
-  if (is_similarity(to_world_) && cutoff_angle_ < 0.5f * kPi) {
-    pivot.axis = glm::normalize(Vec3(to_world_[2]));
-    pivot.cos_cutoff = std::cos(cutoff_angle_);
-  }
-  return pivot;
 }
 
 }  // namespace brume

@@ -18,7 +18,7 @@ class SpotLight final : public Light {
   /// Uniform over the directions of the cone, as its own space sees them.
   std::optional<EmittedLight> emit(const Vec2& u_point, const Vec2& u_direction) const override;
   float importance(const Vec3& p) const override;
-  std::optional<Pivot> pivot() const override;
+  std::optional<Pivot> pivot() const override { return pivot_; }
 
  private:
   float falloff(float angle) const;
@@ -29,6 +29,7 @@ class SpotLight final : public Light {
   glm::dmat3 to_world_;              // scaled to a determinant of 1 or -1
   Rgb intensity_;                    // [W/sr]
   float cutoff_angle_, beam_width_;  // [rad]
+  Pivot pivot_;
 };
 
 }  // namespace brume

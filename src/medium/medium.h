@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -52,9 +53,10 @@ class Medium {
   }
   /// One of the flights of `sample_free_flight` that scatter, with the same weight. Precondition:
   /// the probability that one does is known and positive.
-  virtual FreeFlight sample_scattering(const Ray& ray, float t_max, const Rgb& beta,
-                                       Sampler& sampler) const {
-    return sample_free_flight(ray, t_max, beta, sampler);
+  virtual FreeFlight sample_scattering(const Ray& /*ray*/, float /*t_max*/, const Rgb& /*beta*/,
+                                       Sampler& /*sampler*/) const {
+    assert(false);  // no medium that knows the probability leaves this out
+    return {};
   }
 
   /// Scattering at a point of a flight, where it is known in closed form.
