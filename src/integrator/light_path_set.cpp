@@ -11,13 +11,22 @@ void LightPathSet::add(const LightVertex& vertex, float p_kept) {
   if (lane == 0) blocks_.emplace_back();
   Rgb power = vertex.power;
   Vec3 axis = vertex.d;
+  float g = vertex.phase.g;
+  bool is_diffuse = false;
   if (vertex.hit) {
     const Hit& hit = *vertex.hit;
-    axis = glm::dot(vertex.d, hit.n) < 0.0f ? hit.n : -hit.n;
-    if (scene_->bsdf(hit).is_diffuse() && hit.n == hit.n_shading)
-      power *= scene_->bsdf(hit).albedo(hit.uv);
-    else
-      glossy_.push_back(vertices_.size());
+    const Bsdf& bsdf = scene_->bsdf(hit);
+    power *= bsdf.albedo(hit.uv);
+    if (bsdf.is_diffuse() && hit.n == hit.n_shading) {
+      axis = glm::dot(vertex.d, hit.n) < 0.0f ? hit.n : -hit.n;
+      is_diffuse = true;
+    } else if (const auto lobe = bsdf.mirror_lobe()) {
+      axis = glm::reflect(vertex.d, hit.n_shading);
+      g = *lobe;
+    } else {
+      // Light leaves into few directions, or, by smooth normals, around corners.
+      complex_.push_back(vertices_.size());
+    }
   }
   Block& block = blocks_.back();
   block.x[lane] = vertex.p.x;
@@ -26,8 +35,8 @@ void LightPathSet::add(const LightVertex& vertex, float p_kept) {
   block.axis_x[lane] = axis.x;
   block.axis_y[lane] = axis.y;
   block.axis_z[lane] = axis.z;
-  block.g[lane] = vertex.phase.g;
-  block.is_surface[lane] = vertex.hit ? 1.0f : 0.0f;
+  block.g[lane] = g;
+  block.is_diffuse[lane] = is_diffuse ? 1.0f : 0.0f;
   block.strength[lane] = luminance(power) / p_kept;
   vertices_.push_back(vertex);
   p_kept_.push_back(p_kept);
@@ -45,10 +54,9 @@ LightPathSet::Candidates LightPathSet::candidates_of(const Block& v, const Vec3&
   const Lanes inverse = 1.0f / sqrt(max(far, Lanes(std::numeric_limits<float>::min())));
   // Of the angle between the axis and the direction toward `p`.
   const Lanes cosine = -inverse * (x * v.axis_x + y * v.axis_y + z * v.axis_z);
-  const Lanes denominator = max(1.0f + v.g * (v.g - 2.0f * cosine), Lanes(1e-6f));
-  const Lanes phase = 0.25f * (1.0f - v.g * v.g) / (denominator * sqrt(denominator));
-  const Lanes reflected = max(cosine, Lanes(0.0f));
-  const Lanes leaving = (phase + v.is_surface * (reflected - phase)) / kPi;
+  const Lanes in_lobe = henyey_greenstein(v.g, cosine);
+  const Lanes diffuse = max(cosine, Lanes(0.0f)) / kPi;
+  const Lanes leaving = in_lobe + v.is_diffuse * (diffuse - in_lobe);
   const Lanes tau = sigma_t_ / reach_ * far * inverse;
   const Lanes one_over_T = 1.0f + tau * (1.0f + tau * (0.5f + tau * (1.0f / 6.0f)));  // roughly
   return {.x = x * inverse,
@@ -64,20 +72,18 @@ void LightPathSet::find_candidates(std::size_t begin, std::size_t end, const Vec
   candidates.clear();
   for (std::size_t i = begin; i < end; ++i) candidates.push_back(candidates_of(blocks_[i], p));
 
-  // Glossy surfaces send their light into few directions, and smooth normals see around corners.
-  auto glossy = std::lower_bound(glossy_.begin(), glossy_.end(), begin * kLanes);
-  for (; glossy != glossy_.end() && *glossy < end * kLanes; ++glossy) {
-    Candidates& c = candidates[*glossy / kLanes - begin];
-    const std::size_t lane = *glossy % kLanes;
-    const LightVertex& vertex = vertices_[*glossy];
+  auto i = std::lower_bound(complex_.begin(), complex_.end(), begin * kLanes);
+  for (; i != complex_.end() && *i < end * kLanes; ++i) {
+    Candidates& c = candidates[*i / kLanes - begin];
+    const std::size_t lane = *i % kLanes;
+    const LightVertex& vertex = vertices_[*i];
     const Vec3 d(c.x[lane], c.y[lane], c.z[lane]);
-    c.light[lane] =
-        luminance(vertex.power * scattered_toward(*scene_, vertex, -d)) / p_kept_[*glossy];
+    c.light[lane] = luminance(vertex.power * scattered_toward(*scene_, vertex, -d)) / p_kept_[*i];
   }
   if (most_scatterings == std::numeric_limits<int>::max()) return;
-  for (std::size_t i = begin * kLanes; i < end * kLanes; ++i)
-    if (vertices_[i].scatterings > most_scatterings)
-      candidates[i / kLanes - begin].light[i % kLanes] = 0.0f;
+  for (std::size_t k = begin * kLanes; k < end * kLanes; ++k)
+    if (vertices_[k].scatterings > most_scatterings)
+      candidates[k / kLanes - begin].light[k % kLanes] = 0.0f;
 }
 
 }  // namespace brume

@@ -17,6 +17,9 @@ class LightPathSet {
   /// As many places are looked at together.
   using Lanes = std::experimental::fixed_size_simd<float, 8>;
 
+  /// Phase function of Henyey and Greenstein, roughly where it is steepest [1/sr].
+  static Lanes henyey_greenstein(const Lanes& g, const Lanes& cosine);
+
   /// `reach` [1/unit] and `sigma_t` [1/unit] as in LightPaths and LightPathGuide.
   LightPathSet(const Scene& scene, float reach, float sigma_t, int paths_per_bundle)
       : scene_(&scene), reach_(reach), sigma_t_(sigma_t), paths_per_bundle_(paths_per_bundle) {}
@@ -48,9 +51,9 @@ class LightPathSet {
   /// What a guess of the light needs of the vertices.
   struct Block {
     Lanes x{0.0f}, y{0.0f}, z{0.0f};                 // [unit]
-    Lanes axis_x{0.0f}, axis_y{0.0f}, axis_z{0.0f};  // along the light; on surfaces the normal
+    Lanes axis_x{0.0f}, axis_y{0.0f}, axis_z{0.0f};  // that light leaves around
     Lanes g{0.0f};
-    Lanes is_surface{0.0f};  // 1 or 0
+    Lanes is_diffuse{0.0f};  // 1 where Lambert's law takes the place of Henyey and Greenstein's
     Lanes strength{0.0f};    // of what leaves, in luminance, over `p_kept` [W]; 0: no vertex
   };
   /// What a place would get from vertices if nothing stood in between.
@@ -70,9 +73,13 @@ class LightPathSet {
   std::vector<std::size_t> ends_;      // [bundle], in blocks_
   std::vector<LightVertex> vertices_;  // [block][lane]
   std::vector<float> p_kept_;          // [block][lane]
-  std::vector<std::size_t>
-      glossy_;  // vertices whose surface is not diffuse or not flat, in their order
+  std::vector<std::size_t> complex_;   // vertices that no block can describe, in their order
 };
+
+inline LightPathSet::Lanes LightPathSet::henyey_greenstein(const Lanes& g, const Lanes& cosine) {
+  const Lanes denominator = max(1.0f + g * (g - 2.0f * cosine), Lanes(1e-6f));
+  return (1.0f - g * g) / (4.0f * kPi * denominator * sqrt(denominator));
+}
 
 template <class SeenFrom>
 std::optional<LightPathSet::Choice> LightPathSet::choose(std::uint32_t bundle, const Vec3& p,

@@ -326,9 +326,8 @@ void PathIntegrator::meet_light_paths(Path& path, const Vec3& p, const HenyeyGre
                                       Sampler& sampler) const {
   const Vec3 d_in = path.ray.d;
   const auto seen = [&](const Lanes& x, const Lanes& y, const Lanes& z) {
-    const Lanes cosine = d_in.x * x + d_in.y * y + d_in.z * z;
-    const Lanes denominator = max(1.0f + phase.g * (phase.g - 2.0f * cosine), Lanes(1e-6f));
-    const Lanes value = (1.0f - phase.g * phase.g) / (4.0f * kPi * denominator * sqrt(denominator));
+    const Lanes value =
+        LightPathSet::henyey_greenstein(phase.g, d_in.x * x + d_in.y * y + d_in.z * z);
     return LightPathSet::Seen{value, value};
   };
   const auto choice = path.light->choose(path.bundle, p, scatterings_after(path.depth), seen,
@@ -352,6 +351,14 @@ void PathIntegrator::meet_light_paths(Path& path, const Hit& hit, Sampler& sampl
     const Vec3 n = wo.z > 0.0f ? frame.n : -frame.n;
     const auto seen = [&](const Lanes& x, const Lanes& y, const Lanes& z) {
       const Lanes value = max(n.x * x + n.y * y + n.z * z, Lanes(0.0f)) / kPi;
+      return LightPathSet::Seen{value, value};
+    };
+    choice = path.light->choose(path.bundle, hit.p, most, seen, u);
+  } else if (const auto lobe = bsdf.mirror_lobe()) {
+    const Vec3 mirrored = glm::reflect(path.ray.d, hit.n_shading);
+    const auto seen = [&](const Lanes& x, const Lanes& y, const Lanes& z) {
+      const Lanes value =
+          LightPathSet::henyey_greenstein(*lobe, mirrored.x * x + mirrored.y * y + mirrored.z * z);
       return LightPathSet::Seen{value, value};
     };
     choice = path.light->choose(path.bundle, hit.p, most, seen, u);

@@ -34,6 +34,9 @@ class Bsdf {
   virtual bool has_smooth_lobe() const { return true; }
   /// Whether reflected light is spread as by Lambert's law, on one side or on both.
   virtual bool is_diffuse() const { return false; }
+  /// Mean cosine, in [0, 1), of a Henyey-Greenstein lobe around the mirror direction that resembles
+  /// all that is reflected, rather too wide than too narrow; nothing where no such lobe does.
+  virtual std::optional<float> mirror_lobe() const { return std::nullopt; }
   /// Whether `straight_transmittance` is nonzero anywhere: such a surface must be looked at, where
   /// any other may be taken for opaque to shadow rays.
   virtual bool passes_straight() const { return false; }

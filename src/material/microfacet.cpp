@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "material/microfacet.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -131,6 +132,15 @@ float Microfacets::pdf_visible(const Vec3& wo, const Vec3& m) const {
 float Microfacets::pdf_reflection(const Vec3& wo, const Vec3& wi) const {
   const Vec3 m = glm::normalize(wo + wi);
   return D(m) * G1(wo, m) / (4.0f * wo.z);  // Walter et al. 2007, eq. 14, is the Jacobian
+}
+
+float Microfacets::mirror_lobe() const {
+  // Facets at an angle theta to the mean send light 2 theta beside the mirror direction; for small
+  // ones theta^2 is alpha^2 on average, and the cosine 1 - 2 alpha^2. Twice that is wide enough,
+  // and four times for the tails of GGX.
+  constexpr float kMost = 0.99f;
+  const float alpha = std::max(alpha_u_, alpha_v_);
+  return std::min(std::exp((type_ == MicrofacetType::kGgx ? -8.0f : -4.0f) * alpha * alpha), kMost);
 }
 
 }  // namespace brume

@@ -29,6 +29,8 @@ class Microfacets {
   /// Density of the mirror images of `wo` in the normals seen from it [1/sr]; both directions lie
   /// above the surface.
   float pdf_reflection(const Vec3& wo, const Vec3& wi) const;
+  /// Bsdf::mirror_lobe of those mirror images.
+  float mirror_lobe() const;
 
  private:
   MicrofacetType type_;

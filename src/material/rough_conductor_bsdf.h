@@ -21,6 +21,7 @@ class RoughConductorBsdf final : public Bsdf {
   float pdf(const Vec3& wo, const Vec3& wi, const Vec2& uv) const override;
   std::optional<BsdfSample> sample(const Vec3& wo, const Vec2& uv, float u_lobe,
                                    const Vec2& u) const override;
+  std::optional<float> mirror_lobe() const override { return microfacets_.mirror_lobe(); }
   /// Of the smooth metal at normal incidence.
   Rgb albedo(const Vec2& uv) const override;
 

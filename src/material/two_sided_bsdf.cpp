@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "material/two_sided_bsdf.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace brume {
@@ -35,6 +36,12 @@ std::optional<BsdfSample> TwoSidedBsdf::sample(const Vec3& wo, const Vec2& uv, f
 
 bool TwoSidedBsdf::has_smooth_lobe() const {
   return front_->has_smooth_lobe() || back_->has_smooth_lobe();
+}
+
+std::optional<float> TwoSidedBsdf::mirror_lobe() const {
+  const auto front = front_->mirror_lobe(), back = back_->mirror_lobe();
+  if (!front || !back) return std::nullopt;
+  return std::min(*front, *back);
 }
 
 Rgb TwoSidedBsdf::albedo(const Vec2& uv) const {

@@ -19,6 +19,7 @@ class TwoSidedBsdf final : public Bsdf {
                                    const Vec2& u) const override;
   bool has_smooth_lobe() const override;
   bool is_diffuse() const override { return front_->is_diffuse() && back_->is_diffuse(); }
+  std::optional<float> mirror_lobe() const override;
   /// Mean of the two sides.
   Rgb albedo(const Vec2& uv) const override;
 

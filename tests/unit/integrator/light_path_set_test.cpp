@@ -50,6 +50,8 @@ std::vector<Kept> random_places(const Scene& scene, std::size_t count, Rng& rng)
     const Vec3 d_out = glm::normalize(kReceiver - vertex.p);
     const float value = luminance(scattered_toward(scene, vertex, d_out));
     if (value > 0.0f && value < 0.005f) continue;
+    // Metal out of sight may be chosen, for nothing.
+    if (value == 0.0f && vertex.hit && scene.bsdf(*vertex.hit).mirror_lobe()) continue;
     places.push_back({vertex, 0.1f + 0.9f * rng.next_float()});
   }
   return places;
@@ -160,6 +162,36 @@ TEST_F(ChosenPlaces, AreNoneWhereNoLightCouldArrive) {
   EXPECT_FALSE(set.choose(0, kReceiver, kUnlimited, kSeen, 0.5f));
   EXPECT_FALSE(set.choose(1, kReceiver, kUnlimited, nothing_seen, 0.5f));
   EXPECT_TRUE(set.choose(1, kReceiver, kUnlimited, kSeen, 0.5f));
+}
+
+/// However narrow the lobe that stands for what it reflects.
+TEST_F(ChosenPlaces, MayBeOnMetalWhereverItReflectsTo) {
+  Rng rng(4);
+  for (const float alpha : {0.001f, 0.1f, 0.5f, 1.0f}) {
+    const TestScene room = lit_scene(
+        "<shape type=\"rectangle\"><bsdf type=\"twosided\"><bsdf type=\"roughconductor\">"
+        "<string name=\"distribution\" value=\"ggx\"/><float name=\"alpha\" value=\"" +
+        std::to_string(alpha) + "\"/></bsdf></bsdf></shape>");
+    const Scene& plate = *room.loaded().scene;
+    int reflecting = 0;
+    for (int i = 0; i < 1000; ++i) {
+      const Vec3 d = sample_uniform_sphere(rng.next_vec2());
+      const auto hit = plate.intersect({.o = -d, .d = d}, kInfinity);
+      if (!hit) continue;
+      const LightVertex vertex{
+          .p = hit->p, .d = d, .power = Rgb{1.0f}, .scatterings = 1, .medium = nullptr, .hit = hit};
+      LightPathSet set(plate, kReach, kSigmaT, 1);
+      set.add(vertex, 1.0f);
+      set.end_bundle();
+      const Vec3 d_out = sample_uniform_sphere(rng.next_vec2());
+      if (is_black(scattered_toward(plate, vertex, d_out))) continue;
+      ++reflecting;
+      const auto choice = set.choose(0, hit->p + d_out, kUnlimited, kSeen, 0.5f);
+      ASSERT_TRUE(choice) << alpha;
+      EXPECT_FLOAT_EQ(choice->weight, 1.0f);
+    }
+    EXPECT_GT(reflecting, 100) << alpha;
+  }
 }
 
 /// Surfaces as smooth normals show them: a place is seen wherever it scatters to.

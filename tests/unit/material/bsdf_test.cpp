@@ -61,6 +61,8 @@ std::vector<Case> cases() {
   return {
       {"diffuse", diffuse},
       {"two_sided", std::make_shared<TwoSidedBsdf>(diffuse, metal)},
+      {"two_sided_metal",
+       std::make_shared<TwoSidedBsdf>(metal, rough_metal({kBeckmann, 0.2f, 0.1f}))},
       {"null", std::make_shared<NullBsdf>()},
       {"dielectric", std::make_shared<DielectricBsdf>(1.5f, coloured(), grey(1.0f))},
       {"thin_dielectric", std::make_shared<ThinDielectricBsdf>(1.5f, grey(1.0f), coloured())},
@@ -134,6 +136,28 @@ TEST_P(BsdfLaw, WeightIsValueOverPdf) {
       }
     }
   }
+}
+
+/// What `mirror_lobe` stands for is reflected, and no further from the mirror direction than that.
+TEST_P(BsdfLaw, MirrorLobeIsWideEnough) {
+  const auto lobe = bsdf_.mirror_lobe();
+  if (!lobe) return;
+  EXPECT_GE(*lobe, 0.0f);
+  EXPECT_LT(*lobe, 1.0f);
+  Rng rng(4);
+  const Vec3 wo = glm::normalize(Vec3(0.3f, 0.2f, 1.0f));
+  double sum = 0.0;
+  int count = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const float u_lobe = rng.next_float();
+    const auto s = bsdf_.sample(wo, kUv, u_lobe, rng.next_vec2());
+    if (!s) continue;
+    ASSERT_LT(s->pdf, kInfinity);
+    ASSERT_GT(s->wi.z * wo.z, 0.0f);
+    sum += glm::dot(s->wi, Vec3(-wo.x, -wo.y, wo.z));
+    ++count;
+  }
+  EXPECT_LE(*lobe, sum / count);
 }
 
 TEST_P(BsdfLaw, NoEnergyIsCreated) {
