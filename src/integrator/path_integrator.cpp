@@ -16,10 +16,8 @@ namespace {
 constexpr int kLongPath = 3000, kLostPath = 100'000;
 /// Scatterings up to which flights look for lights near to them; later ones matter too little.
 constexpr int kDepthThatSeeksLights = 2;
-/// How much more likely a path is to go on than by the share of light that light paths leave to it.
-constexpr float kSurvivalPerShare = 2.0f;
-/// Paths that the camera's flight splits into, over the share of light that they stand for, and how
-/// many scatter at most.
+/// Where light paths are met: paths over the share of the pixel's light that they stand for, and
+/// how many of those that the camera's flight splits into scatter at most.
 constexpr float kPathsPerShare = 8.0f;
 constexpr int kMostScattered = 2;
 /// Paths that have scattered from which the brightness of what scatters is learnt, and the camera
@@ -318,7 +316,8 @@ void PathIntegrator::light_surface(Path& path, const Hit& hit, const Rgb& beta,
 float PathIntegrator::left_by_light_paths(const Path& path, const Vec3& p, Sampler& sampler) const {
   if (!(path.pdf_met > 0.0f)) return 1.0f;
   const float share = light_paths_->camera_share(glm::distance(p, path.vertex), path.pdf_met);
-  const float p_survive = std::min(kSurvivalPerShare * share, 1.0f);
+  const float p_survive =
+      std::min(kPathsPerShare * share * max_component(path.beta) * path.eta_squared, 1.0f);
   return sampler.rng().next_float() < p_survive ? share / p_survive : 0.0f;
 }
 
@@ -499,7 +498,8 @@ float PathIntegrator::light_choice(const Path& path, std::size_t light, float p_
 }
 
 bool PathIntegrator::survives_roulette(Path& path, Sampler& sampler) const {
-  if (path.depth < settings_.rr_depth && path.segments < kLongPath) return true;
+  const bool is_tried_later = path.pdf_met > 0.0f;  // by what light paths leave to it
+  if ((path.depth < settings_.rr_depth || is_tried_later) && path.segments < kLongPath) return true;
   float p_survive = std::min(std::sqrt(max_component(path.beta) * path.eta_squared), 1.0f);
   // A path that loses nothing may wander for long. Of those in a thick body a share that falls as
   // n^-1.5 leaves it after n flights. Survival that falls as n^-k lets squared weights grow with
