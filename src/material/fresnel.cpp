@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "material/fresnel.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace brume {
 
 DielectricFresnel fresnel_dielectric(float cos_i, float eta) {
@@ -23,16 +26,17 @@ namespace {
 float fresnel_conductor(float cos_i, float eta, float k) {
   const float cos2 = cos_i * cos_i;
   const float sin2 = (1.0f - cos_i) * (1.0f + cos_i);
-  const float real = eta * eta - k * k - sin2;
-  const float norm = std::hypot(real, 2.0f * eta * k);  // a^2 + b^2
+  const float real = (eta - 1.0f) * (eta + 1.0f) - k * k + cos2;  // eta^2 - k^2 - sin^2
+  const float norm = std::hypot(real, 2.0f * eta * k);            // a^2 + b^2
   const float a = std::sqrt(std::max(0.0f, 0.5f * (norm + real)));
   const float s_sum = norm + cos2, s_cross = 2.0f * cos_i * a;
+  if (!(s_sum > 0.0f)) return 0.0f;  // along a surface to which the index does not change
   const float R_s = (s_sum - s_cross) / (s_sum + s_cross);
   const float p_sum = norm * cos2 + sin2 * sin2, p_cross = s_cross * sin2;
   // An index of 0 reflects everything; there the quotient is 0/0 at normal incidence.
   if (!(p_sum + p_cross > 0.0f)) return 1.0f;
   const float R_p = R_s * (p_sum - p_cross) / (p_sum + p_cross);
-  return 0.5f * (R_s + R_p);
+  return std::max(0.5f * (R_s + R_p), 0.0f);  // by rounding it may be less
 }
 
 }  // namespace

@@ -54,6 +54,14 @@ TEST(DielectricFresnel, EqualIndicesReflectNothing) {
   }
 }
 
+TEST(ConductorFresnel, EqualIndicesReflectNothing) {
+  for (int i = 0; i <= 1000; ++i) {
+    const float R = fresnel_conductor(float(i) / 1000.0f, Rgb{1.0f}, Rgb{0.0f}).r;
+    EXPECT_GE(R, 0.0f) << i;
+    EXPECT_LE(R, 1e-5f) << i;
+  }
+}
+
 TEST(DielectricFresnel, RefractionObeysSnellsLaw) {
   const Vec3 m = glm::normalize(Vec3(0.2f, -0.3f, 0.9f));
   const Vec3 w = glm::normalize(Vec3(0.7f, 0.1f, 0.5f));
