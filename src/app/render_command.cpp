@@ -107,6 +107,23 @@ void warn_of_bad_samples(const RenderStatistics& s) {
              s.bad_samples->count, s.bad_samples->x, s.bad_samples->y);
 }
 
+void warn_of_darkness(const Film& film, const RenderResult& result, const LoadedScene& loaded) {
+  if (loaded.scene->lights().size() == 0) return;  // which was said when it was loaded
+  if (result.min_spp == 0) return;                 // nobody has looked everywhere
+  for (std::uint32_t y = 0; y < film.height(); ++y)
+    for (std::uint32_t x = 0; x < film.width(); ++x)
+      if (!is_black(film.mean(x, y))) return;
+  const int max_depth = loaded.path.max_depth;
+  fmt::print(
+      stderr,
+      "warning: the picture is black: none of {:.4g} samples a pixel met light; check that no "
+      "lamp is closed in or turned away and that the camera sees what they light{}\n",
+      result.mean_spp,
+      max_depth < 0
+          ? ""
+          : fmt::format(", and that max_depth, {}, leaves light enough scatterings", max_depth));
+}
+
 /// Where a picture goes that cannot be written to `output`, so that it is not lost: among the
 /// temporary files or, where there is no place for them, into the current folder.
 std::string rescue_path(const std::string& output) {
@@ -185,6 +202,7 @@ int run_render(const RenderOptions& options) {
   attempts.check();
 
   warn_of_bad_samples(statistics);
+  warn_of_darkness(film, result, loaded);
   if (!options.quiet) print_summary(statistics);
   return result.reason == StopReason::kInterrupted ? kExitInterrupted : 0;
 }

@@ -144,6 +144,13 @@ TEST_F(RenderCommand, QuietWarns) {
   EXPECT_EQ(ended.err, "warning: cloud.vol: 4 negative voxels were set to 0\n");
 }
 
+TEST_F(RenderCommand, SaysWhyAPictureMayBeBlack) {
+  const Ended dark = run({"render", "scene.xml", "-D", "glow=0", "--max-depth", "2", "--quiet"});
+  EXPECT_EQ(dark.exit_code, 0);
+  EXPECT_THAT(dark.err, ::testing::StartsWith("warning: the picture is black: none of 4 samples"));
+  EXPECT_THAT(dark.err, HasSubstr("max_depth, 2,"));
+}
+
 TEST_F(RenderCommand, ProgressIsPlainLinesInAFileAndABarOnATerminal) {
   const Ended in_file = run({"render", "scene.xml"});
   EXPECT_THAT(in_file.err, MatchesRegex(".*100%  4/4 spp  0:00 left .*samples/s\n"));
