@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/hash.h"
+#include "scene/contradiction.h"
 
 namespace brume {
 namespace {
@@ -22,7 +23,7 @@ constexpr float kLeastShare = 0.5f;
 LightPaths::LightPaths(const Scene& scene, const Camera& camera, const CameraMedium& camera_medium,
                        int max_scatterings)
     : scene_(scene), tracer_(scene, max_scatterings) {
-  if (tracer_.lamps().empty()) return;
+  if (tracer_.lamps().empty() || find_contradiction(scene)) return;
   guide_.emplace(scene, tracer_, find_receivers(scene, camera, camera_medium, kReceivers));
   if (!guide_->found_light() || guide_->distances().empty()) return;
   const float per_path = guide_->kept_per_path();

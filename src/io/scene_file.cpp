@@ -11,6 +11,7 @@
 #include "io/scene_builder.h"
 #include "io/scene_document.h"
 #include "io/transform.h"
+#include "scene/contradiction.h"
 
 namespace brume {
 namespace {
@@ -102,6 +103,30 @@ void note_unused(const SceneDocument& document, Notices& notices) {
   }
 }
 
+std::string name_of(const Medium* medium, const BuildContext& context) {
+  for (const auto& [node, known] : context.media)
+    if (known.get() == medium) return node->label();
+  return medium == nullptr ? "vacuum" : "another medium";
+}
+
+/// `shapes` belong to the scene's nodes, in their order.
+void warn_of_contradiction(const SceneNode& root, const std::vector<const Shape*>& shapes,
+                           const Scene& scene, const BuildContext& context) {
+  const auto found = find_contradiction(scene);
+  if (!found) return;
+  const auto node_of = [&](std::uint32_t surface) {
+    const auto at = std::find(shapes.begin(), shapes.end(), scene.surfaces()[surface].shape.get());
+    return root.children_of("shape")[std::size_t(at - shapes.begin())].node;
+  };
+  const SceneNode *from = node_of(found->from), *to = node_of(found->to);
+  context.notices.warn(fmt::format(
+      "{}: this {} and the {} at {} contradict each other: between them there is {} by the first "
+      "and {} by the second. Light goes by the last boundary that it crossed. Give a body that "
+      "stands in another the other's medium as its exterior, and let bodies of fog not overlap",
+      from->at.to_string(), from->label(), to->label(), to->at.to_string(),
+      name_of(found->left, context), name_of(found->met, context)));
+}
+
 // The medium at the camera is found from the scene. Where the file says one, both must agree.
 void check_camera_medium(const SceneNode& sensor_node, const SensorSettings& sensor,
                          const Scene& scene, BuildContext& context) {
@@ -109,13 +134,9 @@ void check_camera_medium(const SceneNode& sensor_node, const SensorSettings& sen
   const Vec3 position = sensor.camera->ray(Vec2(0.5f), Vec2(0.5f)).ray.o;
   const Scene::MediumAt found = scene.medium_at(position);
   if (found.medium == build_medium(*sensor.medium, context).get()) return;
-  std::string name = found.medium == nullptr ? "vacuum" : "another medium";
-  for (const auto& [node, medium] : context.media) {
-    if (medium.get() == found.medium) name = node->label();
-  }
   const std::string message =
       fmt::format("{} refers to {}, but the boundaries around it put it in {}", sensor_node.label(),
-                  sensor.medium->label(), name);
+                  sensor.medium->label(), name_of(found.medium, context));
   if (found.unanimous) fail_at(sensor.medium_at, message);
   context.notices.warn(
       fmt::format("{}: {} (not all of them agree)", sensor.medium_at.to_string(), message));
@@ -217,7 +238,10 @@ LoadedScene load_scene(const std::filesystem::path& path, const Definitions& def
   note_unused(document, notices);
   root.finish();
 
+  std::vector<const Shape*> shapes;
+  for (const Surface& surface : world.parts.surfaces) shapes.push_back(surface.shape.get());
   auto scene = std::make_unique<const Scene>(std::move(world.parts));
+  warn_of_contradiction(root, shapes, *scene, context);
   check_camera_medium(sensor_node, world.sensor, *scene, context);
   if (!context.without_effect.empty()) {
     notices.warn(

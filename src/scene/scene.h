@@ -28,7 +28,12 @@ class Scene {
   /// Nearest surface point along `ray` in (0, t_max).
   std::optional<Hit> intersect(const Ray& ray, float t_max) const;
 
+  /// As `Hit::shape` counts them: in the order of the scene's parts, but lights first and what is
+  /// not seen last.
+  const std::vector<Surface>& surfaces() const { return surfaces_; }
   const Bsdf& bsdf(const Hit& hit) const { return *surfaces_[hit.shape].bsdf; }
+  /// Whether the medium changes at the surface, or at another in the same place.
+  bool is_boundary(const Hit& hit) const;
 
   /// Medium behind the surface for light that crosses it in direction `d` out of `medium`. Of
   /// surfaces at the same place, one that the light enters has the say.
@@ -79,8 +84,6 @@ class Scene {
   const std::vector<Requirement>& requirements() const { return requirements_; }
 
  private:
-  bool is_boundary(const Hit& hit) const;
-
   std::vector<Requirement> requirements_;
   std::vector<Surface> surfaces_;
   std::shared_ptr<const Medium> world_medium_;

@@ -61,6 +61,22 @@ TEST(LightPaths, DoNotExistWhereALampStandsInFogWithoutEnd) {
                    .light_paths.exist());
 }
 
+TEST(LightPaths, DoNotExistWhereBoundariesContradictEachOther) {
+  const auto ball = [](const std::string& exterior) {
+    return "<medium type=\"homogeneous\" id=\"fog\"><float name=\"sigma_t\" "
+           "value=\"0.4\"/></medium>"
+           "<shape type=\"cube\"><transform name=\"to_world\"><scale value=\"1.9\"/></transform>"
+           "<bsdf type=\"null\"/><ref name=\"interior\" id=\"fog\"/></shape>"
+           "<shape type=\"sphere\"><float name=\"radius\" value=\"0.5\"/><bsdf "
+           "type=\"dielectric\"/>"
+           "<medium type=\"homogeneous\" name=\"interior\"/>" +
+           exterior + "</shape>";
+  };
+  const std::string lit = kRoom + point_lamp("1, 1, 1", "1, 1, 1");
+  EXPECT_TRUE(Lit(lit + ball("<ref name=\"exterior\" id=\"fog\"/>")).light_paths.exist());
+  EXPECT_FALSE(Lit(lit + ball("")).light_paths.exist());
+}
+
 TEST(LightPaths, DoNotExistWithAnEnvironment) {
   EXPECT_FALSE(Lit(kRoom + kAreaLamp +
                    "<emitter type=\"constant\"><rgb name=\"radiance\" value=\"1\"/></emitter>")

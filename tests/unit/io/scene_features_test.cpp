@@ -11,6 +11,7 @@
 namespace brume {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -283,6 +284,43 @@ TEST_F(SceneFeatures, AMediumThatShapesReferToFillsOnlyThem) {
   const auto both = load_body(R"(<medium type="homogeneous" id="fog"/><ref id="fog"/>
     <shape type="sphere"><bsdf type="null"/><ref name="interior" id="fog"/></shape>)");
   expect_near(transmittance_at(both, Vec3(5.0f)), Rgb(std::exp(-1.0f)));
+}
+
+/// A box of fog, and in it a ball of another medium.
+std::string ball_in_fog(const std::string& of_the_ball) {
+  return R"(<emitter type="point"/>
+<shape type="cube"><bsdf type="null"/>
+  <medium type="homogeneous" name="interior" id="fog"/></shape>
+<shape type="sphere"><float name="radius" value="0.2"/>)" +
+         of_the_ball + "</shape>";
+}
+
+TEST_F(SceneFeatures, BoundariesThatContradictEachOtherAreNamed) {
+  load_body(
+      ball_in_fog(R"(<bsdf type="dielectric"/><medium type="homogeneous" name="interior"/>)"));
+  EXPECT_THAT(notices(), ElementsAre(AllOf(
+                             HasSubstr("scene.xml:5:2: this sphere shape and the cube shape at"),
+                             HasSubstr("scene.xml:3:2 contradict each other"),
+                             HasSubstr("vacuum by the first and medium \"fog\" by the second"))));
+
+  // Two clouds that overlap.
+  load_body(ball_in_fog(R"(<bsdf type="null"/><point name="center" x="1" y="0" z="0"/>
+    <medium type="homogeneous" name="interior"/>)"));
+  EXPECT_THAT(notices(), ElementsAre(HasSubstr("contradict each other")));
+}
+
+TEST_F(SceneFeatures, BoundariesThatAgreeAreNot) {
+  const std::vector<std::string> balls = {
+      R"(<bsdf type="dielectric"/>)",
+      R"(<bsdf type="diffuse"/><medium type="homogeneous" name="interior"/>)",
+      R"(<bsdf type="dielectric"/><medium type="homogeneous" name="interior"/>
+         <ref name="exterior" id="fog"/>)",
+      R"(<bsdf type="dielectric"/><point name="center" x="2" y="0" z="0"/>
+         <medium type="homogeneous" name="interior"/>)"};
+  for (const std::string& ball : balls) {
+    load_body(ball_in_fog(ball));
+    EXPECT_THAT(notices(), IsEmpty()) << ball;
+  }
 }
 
 TEST_F(SceneFeatures, TheMediumThatTheSensorNamesIsCheckedAgainstTheScene) {
