@@ -30,6 +30,8 @@ class Sampler {
 
   float next_1d();
   Vec2 next_2d();
+  /// Leaves a next_2d() to paths to which something else happened here.
+  void skip_2d() { dimension_ += 2; }
 
   /// Goes on with the dimensions of flight number `flight` of the path, from 0. Paths that met
   /// different things before use them for the same purpose, and so stratify each other.
@@ -51,7 +53,7 @@ class Sampler {
 
  private:
   static constexpr std::uint32_t kCameraDimensions = 4;   // film and lens
-  static constexpr std::uint32_t kFlightDimensions = 14;  // the most that an event takes
+  static constexpr std::uint32_t kFlightDimensions = 15;  // the most that an event takes
   static constexpr std::uint32_t kSobolFlights = 4;
   static constexpr std::uint32_t kSobolDimensions =
       kCameraDimensions + kSobolFlights * kFlightDimensions;

@@ -123,10 +123,11 @@ void PathIntegrator::follow(Path& path, Sampler& sampler) const {
         const FreeFlight flight =
             around.sample_free_flight(path.ray, segment.t_end, path.beta, sampler);
         path.beta *= flight.weight;
+        const PhaseSample next = next_direction(path, flight, sampler);
         if (may_scatter(path)) light_segment(path, segment, flight, sampler);
         if (flight.scattered && !is_black(path.beta)) {
-          alive =
-              scatter_in_medium(path, segment, flight, sampler) && survives_roulette(path, sampler);
+          alive = scatter_in_medium(path, segment, flight, next, sampler) &&
+                  survives_roulette(path, sampler);
           continue;
         }
       }
@@ -181,8 +182,9 @@ void PathIntegrator::follow_scattered(Path& path, const Segment& segment, const 
   scattered.L = Rgb{0.0f};
   scattered.flights = 1;
   scattered.beta = segment.beta * flight.weight * segment.p_scatter;
+  const PhaseSample next = next_direction(scattered, flight, sampler);
   light_segment(scattered, segment, flight, sampler);
-  if (scatter_in_medium(scattered, segment, flight, sampler) &&
+  if (scatter_in_medium(scattered, segment, flight, next, sampler) &&
       survives_roulette(scattered, sampler)) {
     ++scattered.segments;
     follow(scattered, sampler);
@@ -399,8 +401,19 @@ void PathIntegrator::meet(Path& path, const Ray& ray, const LightPathSet::Choice
          scatterings + vertex.scatterings);
 }
 
+PhaseSample PathIntegrator::next_direction(const Path& path, const FreeFlight& flight,
+                                           Sampler& sampler) const {
+  if (!flight.scattered) {
+    sampler.skip_2d();
+    return {};
+  }
+  const PhaseSample next = flight.phase.sample(path.ray.d, sampler.next_2d());
+  medium_around(path).prefetch({path.ray.at(flight.t), next.d});
+  return next;
+}
+
 bool PathIntegrator::scatter_in_medium(Path& path, const Segment& segment, const FreeFlight& flight,
-                                       Sampler& sampler) const {
+                                       const PhaseSample& next, Sampler& sampler) const {
   see_first(path, flight);
   if (!may_scatter(path)) return false;
   ++path.depth;
@@ -411,7 +424,6 @@ bool PathIntegrator::scatter_in_medium(Path& path, const Segment& segment, const
     if (is_black(path.beta)) return false;
     meet_light_paths(path, p, flight.phase, sampler);
   }
-  const PhaseSample next = flight.phase.sample(path.ray.d, sampler.next_2d());
   path.ray = {p, next.d};
   path.t_max = kInfinity;
   path.vertex = p;

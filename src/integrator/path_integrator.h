@@ -80,9 +80,13 @@ class PathIntegrator {
   /// about to scatter: 0 where that ends here, or else its weight.
   float left_by_light_paths(const Path& path, const Vec3& p, Sampler& sampler) const;
 
+  /// Where the path goes on if it scatters. It is asked for before light is looked for, so that
+  /// what the medium reads along the next flight arrives meanwhile.
+  PhaseSample next_direction(const Path& path, const FreeFlight& flight, Sampler& sampler) const;
+
   // Each returns whether the path goes on.
   bool scatter_in_medium(Path& path, const Segment& segment, const FreeFlight& flight,
-                         Sampler& sampler) const;
+                         const PhaseSample& next, Sampler& sampler) const;
   bool interact_with_surface(Path& path, const Hit& hit, Sampler& sampler) const;
   bool survives_roulette(Path& path, Sampler& sampler) const;
 

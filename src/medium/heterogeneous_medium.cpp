@@ -71,6 +71,11 @@ bool scatters_nothing(const ColorField& albedo, HenyeyGreenstein phase) {
   return (constant && is_black(*constant)) || part_scattered_straight_on(albedo, phase);
 }
 
+/// Bounds of this size are in the caches, once used [bytes]; of others so many cells of a flight
+/// are asked for before it begins.
+constexpr std::size_t kNearMemory = std::size_t(4) << 20;
+constexpr int kCellsAhead = 4;
+
 enum class VoxelLookup { kNearest, kStochastic, kTrilinear };
 
 template <class Value>
@@ -214,6 +219,11 @@ class HeterogeneousMedium final : public Medium {
       return false;
     });
     return Rgb(T);
+  }
+
+  void prefetch(const Ray& ray) const override {
+    if (bounds_.memory_bytes() > kNearMemory)
+      bounds_.prefetch(density_->index_from_world(), ray, kCellsAhead);
   }
 
   MediumSummary summary() const override {

@@ -71,6 +71,9 @@ class Medium {
     return std::nullopt;
   }
 
+  /// Asks memory for what a flight along `ray`, from within the medium, is going to read first.
+  virtual void prefetch(const Ray& /*ray*/) const {}
+
   /// The medium that stands for this one where light has scattered so often that only its diffusion
   /// counts; the medium itself where none was built.
   virtual const Medium& similar() const { return *this; }

@@ -81,6 +81,16 @@ BoundsGrid::BoundsGrid(const Grid<Value>& grid, float cell_size)
       }
 }
 
+void BoundsGrid::prefetch(const glm::dmat4& index_from_world, const Ray& ray, int count) const {
+  const Vec3 o(index_from_world * glm::dvec4(ray.o, 1.0));
+  const Vec3 d(glm::dmat3(index_from_world) * glm::dvec3(ray.d));
+  const Vec3 in_cells = (o - box_.min) / cell_size_, step = glm::normalize(d);
+  for (int i = 1; i <= count; ++i) {
+    const glm::ivec3 cell(in_cells + float(i) * step);
+    __builtin_prefetch(&range(glm::clamp(cell, glm::ivec3(0), resolution_ - 1)));
+  }
+}
+
 template <class Value>
 ValueRange FineBounds<Value>::range(const glm::ivec3& part) const {
   auto accessor = grid_.nano().getAccessor();

@@ -30,6 +30,8 @@ class BoundsGrid {
   const ValueRange& range(const glm::ivec3& cell) const {
     return ranges_[(std::size_t(cell.z) * resolution_.y + cell.y) * resolution_.x + cell.x];
   }
+  /// Asks memory for the ranges of some `count` cells along `ray`, the first one left out.
+  void prefetch(const glm::dmat4& index_from_world, const Ray& ray, int count) const;
   /// Part of index space that the cell covers [voxels].
   Box3 cell_box(const glm::ivec3& cell) const {
     const Vec3 lo = box_.min + Vec3(cell) * cell_size_;
