@@ -10,6 +10,15 @@
 namespace brume {
 namespace {
 
+TEST(Sampler, SkippedNumbersAreThoseThatOthersDraw) {
+  Sampler draws(1, 2, 3), skips(1, 2, 3);
+  const Vec2 left_out = draws.next_2d();
+  skips.skip_2d();
+  const Vec2 next = skips.next_2d();
+  EXPECT_EQ(draws.next_2d(), next);
+  EXPECT_NE(next, left_out);
+}
+
 TEST(SamplerSplit, PartsAreStratifiedOverSamples) {
   for (std::uint32_t part = 0; part < 2; ++part) {
     std::set<int> strata;
