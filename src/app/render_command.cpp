@@ -165,15 +165,16 @@ int run_render(const RenderOptions& options) {
   const double load_seconds = seconds_since(begin);
   const bool independent = options.settings.numbers == EstimatorSettings::Numbers::kIndependent;
   RenderSettings settings = render_settings(options, loaded, load_seconds, outputs.size());
-  // Pixels that share light paths go on side by side, or each would have to have its own.
-  if (integrator.meets_light_paths()) settings.adaptive = false;
+  if (integrator.meets_light_paths() && !suits_adaptive_sampling(loaded.film))
+    settings.adaptive = false;
   if (options.checkpoint_every) {
     settings.checkpoint_interval = *options.checkpoint_every;
     settings.save_checkpoint = [&](const RenderState& state) { checkpoint.save_or_warn(state); };
   }
   const RenderResult result =
-      render(camera_samples(integrator, loaded.film, options.seed, independent), settings, film,
-             checkpoint.state());
+      render(camera_samples(integrator, loaded.film, options.seed,
+                            {.independent = independent, .adaptive = settings.adaptive}),
+             settings, film, checkpoint.state());
 
   const RenderStatistics statistics{.input = options.input,
                                     .outputs = outputs,

@@ -54,7 +54,7 @@ Subject::Rendered SceneSubject::render(std::uint32_t spp, std::uint64_t seed) {
   Film film(std::uint32_t(loaded_->film.crop_size.x), std::uint32_t(loaded_->film.crop_size.y));
   const bool independent = current_.settings.numbers == EstimatorSettings::Numbers::kIndependent;
   const double begin = processor_seconds();
-  brume::render(camera_samples(*integrator_, loaded_->film, seed, independent),
+  brume::render(camera_samples(*integrator_, loaded_->film, seed, {.independent = independent}),
                 {.spp = spp, .threads = options_.threads}, film);
   const double seconds = (processor_seconds() - begin) / options_.threads;
   return {.picture = develop(film), .seconds = seconds};

@@ -80,7 +80,8 @@ void Film::note(const Pixel& pixel, PixelGuide& guide) {
   const auto& lengths = PixelGuide::kBlocks;
   const auto found = std::find(lengths.begin(), lengths.end(), pixel.drawn / Sampler::kBlock);
   if (found == lengths.end() || pixel.samples < 2) return;
-  const glm::dvec3 variance = squared_standard_error(pixel) * double(pixel.samples);
+  // Two blocks say little, but those of all pixels around do.
+  const glm::dvec3 variance = squared_standard_error(pixel, 2) * double(pixel.samples);
   guide.variance[std::size_t(found - lengths.begin())] =
       static_cast<float>(variance.r + variance.g + variance.b);
 }
@@ -112,10 +113,11 @@ float Film::alpha(std::uint32_t x, std::uint32_t y) const {
 
 Rgb Film::standard_error(std::uint32_t x, std::uint32_t y) const {
   const Pixel& pixel = at(x, y);
-  return pixel.samples < 2 ? Rgb{kInfinity} : Rgb(glm::sqrt(squared_standard_error(pixel)));
+  if (pixel.samples < 2) return Rgb{kInfinity};
+  return Rgb(glm::sqrt(squared_standard_error(pixel, kMinBlocks)));
 }
 
-glm::dvec3 Film::squared_standard_error(const Pixel& pixel) {
+glm::dvec3 Film::squared_standard_error(const Pixel& pixel, std::uint32_t least_blocks) {
   // Variances of independent sums add: those of whole replications, of blocks beyond them, and of
   // samples beyond these.
   const auto variance_of_sum = [](const Groups& groups, double size, double count) {
@@ -124,7 +126,7 @@ glm::dvec3 Film::squared_standard_error(const Pixel& pixel) {
   constexpr double kBlock = Sampler::kBlock, kReplication = Sampler::kReplication;
   const double replications =
       pixel.replications.count < kMinReplications ? 0.0 : pixel.replications.count;
-  const double blocks = pixel.blocks.count < kMinBlocks
+  const double blocks = pixel.blocks.count < least_blocks
                             ? 0.0
                             : pixel.blocks.count - replications * (kReplication / kBlock);
   const double n = pixel.samples;

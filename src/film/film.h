@@ -26,9 +26,11 @@ struct FilmLayers {
 /// it steered before.
 struct PixelGuide {
   /// Blocks of samples after which `variance` was taken.
-  static constexpr std::array<std::uint32_t, 9> kBlocks{1, 2, 4, 8, 16, 32, 64, 128, 256};
+  static constexpr std::array<std::uint32_t, 8> kBlocks{2, 4, 8, 16, 32, 64, 128, 256};
 
-  std::array<float, kBlocks.size()> variance{};  // of one sample, summed over channels
+  /// Of the mean of so many blocks, times their samples, summed over channels: less than that of
+  /// one sample where samples stratify each other.
+  std::array<float, kBlocks.size()> variance{};
   float work = 0.0f;  // of one sample, over the first block; as in CameraSample
 };
 
@@ -113,7 +115,8 @@ class Film {
   };
 
   static void close(Groups& groups, std::uint32_t size, const Pixel& pixel);
-  static glm::dvec3 squared_standard_error(const Pixel& pixel);
+  /// From the spread of blocks' means if there are `least_blocks`.
+  static glm::dvec3 squared_standard_error(const Pixel& pixel, std::uint32_t least_blocks);
   static void note(const Pixel& pixel, PixelGuide& guide);
 
   std::size_t index(std::uint32_t x, std::uint32_t y) const {

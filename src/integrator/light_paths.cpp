@@ -45,10 +45,10 @@ LightPaths::LightPaths(const Scene& scene, const Camera& camera, const CameraMed
   if (share > kLeastShare) paths_per_bundle_ = paths;
 }
 
-std::shared_ptr<const LightPathSet> LightPaths::of(std::uint64_t seed, std::uint32_t group) const {
-  Slot& slot = slots_[group % kGroups];
+std::shared_ptr<const LightPathSet> LightPaths::of(const Key& shared) const {
+  Slot& slot = slots_[shared.group % kGroups];
   const std::lock_guard lock(slot.mutex);
-  const std::uint64_t own_seed = hash_combine(seed, group);
+  const std::uint64_t own_seed = hash_combine(shared.seed, shared.group);
   if (slot.set == nullptr || slot.seed != own_seed) {
     slot.set = traced(own_seed);
     slot.seed = own_seed;

@@ -35,10 +35,14 @@ class LightPaths {
   /// Whether the scene's light can be followed from the lamps, and is worth it.
   bool exist() const { return paths_per_bundle_ > 0; }
 
-  /// Those for all samples of a block, `seed` being Sampler::block_seed(): a bundle for each. Any
-  /// two groups have different ones. May be called by many threads; costs little where it is asked
-  /// for one block after the other. Precondition: exist().
-  std::shared_ptr<const LightPathSet> of(std::uint64_t seed, std::uint32_t group) const;
+  /// What samples have in common that share light paths: any two keys have different ones.
+  struct Key {
+    std::uint64_t seed = 0;
+    std::uint32_t group = 0;  // below kGroups
+  };
+  /// Those for the samples of a block: a bundle for each. May be called by many threads; costs
+  /// little where those of one seed are asked for before those of the next. Precondition: exist().
+  std::shared_ptr<const LightPathSet> of(const Key& shared) const;
 
   /// Share of the light from a place at `distance` [unit] that is left to the path from the camera,
   /// which goes on into its direction with density `pdf` [1/sr].

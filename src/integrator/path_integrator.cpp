@@ -78,7 +78,7 @@ float PathIntegrator::learn_scattered_luminance() const {
     Sampler sampler(kPilotSeed, std::uint32_t(i), 0, true);
     const Vec2 film = sampler.next_2d();
     const CameraRay camera_ray = camera_.ray(film, sampler.next_2d());
-    const Path path = trace(camera_ray, camera_medium_.at(camera_ray.ray), sampler, 0);
+    const Path path = trace(camera_ray, camera_medium_.at(camera_ray.ray), sampler, {});
     sum += luminance(path.L);
     scattered += path.depth > 0 ? 1 : 0;
   }
@@ -92,11 +92,11 @@ float PathIntegrator::share_of_escape(const Rgb& background) const {
 }
 
 PathIntegrator::Path PathIntegrator::trace(const CameraRay& camera_ray, const Medium* medium,
-                                           Sampler& sampler, std::uint32_t group) const {
+                                           Sampler& sampler, const LightPaths::Key& shared) const {
   Path path{.ray = camera_ray.ray, .t_max = camera_ray.t_max, .medium = medium};
   std::shared_ptr<const LightPathSet> light;
   if (light_paths_ != nullptr) {
-    light = light_paths_->of(sampler.block_seed(), group);
+    light = light_paths_->of(shared);
     path.light = light.get();
     path.bundle = sampler.index_in_block();
   }
@@ -199,10 +199,11 @@ void PathIntegrator::see_first(Path& path, const FreeFlight& flight) const {
   path.first.albedo = glm::min(flight.weight, Rgb{1.0f});
 }
 
-CameraSample PathIntegrator::sample(const Vec2& film, Sampler& sampler, std::uint32_t group) const {
+CameraSample PathIntegrator::sample(const Vec2& film, Sampler& sampler,
+                                    const LightPaths::Key& shared) const {
   const CameraRay camera_ray = camera_.ray(film, sampler.next_2d());
   const Medium* medium = camera_medium_.at(camera_ray.ray);
-  const Path path = trace(camera_ray, medium, sampler, group);
+  const Path path = trace(camera_ray, medium, sampler, shared);
 
   Rgb background{0.0f};
   if (!settings_.hide_emitters) background = scene_.lights().environment_radiance(camera_ray.ray.d);

@@ -21,12 +21,15 @@ class PathIntegrator {
   PathIntegrator(const Scene& scene, const Camera& camera, const PathSettings& settings);
 
   /// One sample of the light that reaches the camera at `film` in [0, 1]^2, from the top left.
-  /// Samples with the same seed and index share light paths if they are of the same `group`, of
-  /// which there may be LightPaths::kGroups.
-  CameraSample sample(const Vec2& film, Sampler& sampler, std::uint32_t group = 0) const;
+  /// Samples with the same `shared` and the same place in their block share light paths.
+  CameraSample sample(const Vec2& film, Sampler& sampler, const LightPaths::Key& shared) const;
+  /// One that shares light paths with those of the same block in all other pixels.
+  CameraSample sample(const Vec2& film, Sampler& sampler) const {
+    return sample(film, sampler, LightPaths::Key{.seed = sampler.block_seed(), .group = 0});
+  }
 
-  /// Whether there are light paths to share. They cost little only where pixels ask for samples of
-  /// the same index one after the other.
+  /// Whether there are light paths to share. They cost little only where pixels ask for those
+  /// of one turn before those of the next.
   bool meets_light_paths() const { return light_paths_ != nullptr; }
 
  private:
@@ -35,7 +38,7 @@ class PathIntegrator {
   /// Follows a path from the camera, in `medium`, until it leaves the scene or ends. What stands
   /// behind everything is not part of what it gathers.
   Path trace(const CameraRay& camera_ray, const Medium* medium, Sampler& sampler,
-             std::uint32_t group) const;
+             const LightPaths::Key& shared) const;
 
   /// Goes on with a path until it leaves the scene or ends.
   void follow(Path& path, Sampler& sampler) const;

@@ -57,6 +57,23 @@ class Clock {
   std::atomic<bool> stopped_{false}, rests_{false};
 };
 
+/// A step of a round, in which each pixel goes on by its part of what the round brings it.
+struct Turn {
+  const SamplePlan &before, &after;  // of the round
+  std::uint32_t first, last;         // numbers of the round's turns, `last` not among them
+  std::uint32_t number;
+  std::uint32_t limit;  // samples of any pixel
+
+  /// Samples that a pixel is to have at the end.
+  std::uint32_t samples(std::size_t pixel) const {
+    const std::uint32_t begin = before.samples(pixel), end = after.samples(pixel);
+    if (end <= begin) return 0;
+    const std::uint64_t blocks = (end - begin) / Sampler::kBlock;
+    const std::uint64_t done = blocks * (number + 1 - first) / (last - first);
+    return std::min(begin + std::uint32_t(done) * Sampler::kBlock, limit);
+  }
+};
+
 class Renderer {
  public:
   Renderer(const SampleFunction& sample, const RenderSettings& settings, Film& film,
@@ -83,9 +100,10 @@ class Renderer {
     return settings_.threads > 0 ? settings_.threads : oneapi::tbb::info::default_concurrency();
   }
   ProgressState goals() const;
+  SamplePlan plan_of(std::uint32_t blocks) const;
   bool finish_round();
-  bool bring_to(const SamplePlan& plan, std::uint32_t limit);
-  void render_tile(std::uint32_t tile, const SamplePlan& plan, std::uint32_t limit);
+  bool finish_turn(const Turn& turn);
+  void render_tile(std::uint32_t tile, const Turn& turn);
   bool has_all_samples() const;
 
   const SampleFunction& sample_;
@@ -104,18 +122,6 @@ std::uint64_t samples_drawn(const Film& film) {
   for (std::uint32_t y = 0; y < film.height(); ++y)
     for (std::uint32_t x = 0; x < film.width(); ++x) sum += film.drawn(x, y);
   return sum;
-}
-
-std::uint32_t least_drawn(const Film& film) {
-  std::uint32_t least = RenderSettings::kUnlimited;
-  for (std::uint32_t y = 0; y < film.height(); ++y)
-    for (std::uint32_t x = 0; x < film.width(); ++x) least = std::min(least, film.drawn(x, y));
-  return least;
-}
-
-std::uint32_t most_samples(const SamplePlan& plan) {
-  return plan.uneven.empty() ? plan.even
-                             : *std::max_element(plan.uneven.begin(), plan.uneven.end());
 }
 
 ProgressState Renderer::goals() const {
@@ -141,32 +147,34 @@ StopReason Renderer::run() {
   return interrupt_requested() ? StopReason::kInterrupted : StopReason::kTimeLimit;
 }
 
+SamplePlan Renderer::plan_of(std::uint32_t blocks) const {
+  return settings_.adaptive && blocks > 0 ? adaptive_plan(film_, blocks) : even_plan(blocks);
+}
+
 /// Whether the latest round could be brought to its end.
 bool Renderer::finish_round() {
-  const SamplePlan plan = settings_.adaptive && state_.blocks > 0
-                              ? adaptive_plan(film_, state_.blocks)
-                              : even_plan(state_.blocks);
+  const std::uint32_t first = round_before(state_.blocks), last = state_.blocks;
+  const SamplePlan before = plan_of(first), after = plan_of(last);
+  Turn turn{before, after, first, last, first, settings_.spp};
   // The picture as a whole is there soon, whatever ends the render.
-  if (state_.blocks == 1)
-    for (const std::uint32_t few : {1u, 2u, 4u, 8u})
-      if (!bring_to(plan, std::min(few, settings_.spp))) return false;
-  // Block by block, as pixels share light paths in a block.
-  const std::uint32_t most = std::min(most_samples(plan), settings_.spp);
-  for (std::uint32_t end = least_drawn(film_); end < most;) {
-    end = std::min((end / Sampler::kBlock + 1) * Sampler::kBlock, most);
-    if (!bring_to(plan, end)) return false;
-  }
+  if (first == 0)
+    for (const std::uint32_t few : {1u, 2u, 4u, 8u}) {
+      turn.limit = std::min(few, settings_.spp);
+      if (!finish_turn(turn)) return false;
+    }
+  turn.limit = settings_.spp;
+  for (; turn.number < last; ++turn.number)
+    if (!finish_turn(turn)) return false;
   return !clock_.has_stopped();
 }
 
-/// Whether all pixels got the samples of `plan`, up to `limit`.
-bool Renderer::bring_to(const SamplePlan& plan, std::uint32_t limit) {
+/// Whether all pixels got their samples.
+bool Renderer::finish_turn(const Turn& turn) {
   const std::uint32_t tiles = ((film_.width() + kTileSize - 1) / kTileSize) *
                               ((film_.height() + kTileSize - 1) / kTileSize);
   for (;;) {
     arena_.execute([&] {
-      oneapi::tbb::parallel_for(0u, tiles,
-                                [&](std::uint32_t tile) { render_tile(tile, plan, limit); });
+      oneapi::tbb::parallel_for(0u, tiles, [&](std::uint32_t tile) { render_tile(tile, turn); });
     });
     if (clock_.has_stopped()) return false;
     if (!clock_.rests()) return true;
@@ -175,17 +183,18 @@ bool Renderer::bring_to(const SamplePlan& plan, std::uint32_t limit) {
   }
 }
 
-void Renderer::render_tile(std::uint32_t tile, const SamplePlan& plan, std::uint32_t limit) {
+void Renderer::render_tile(std::uint32_t tile, const Turn& turn) {
   const std::uint32_t tiles_across = (film_.width() + kTileSize - 1) / kTileSize;
   const std::uint32_t left = tile % tiles_across * kTileSize;
   const std::uint32_t top = tile / tiles_across * kTileSize;
   for (std::uint32_t y = top; y < std::min(top + kTileSize, film_.height()); ++y) {
     for (std::uint32_t x = left; x < std::min(left + kTileSize, film_.width()); ++x) {
-      const std::uint32_t end = std::min(plan.samples(std::size_t(y) * film_.width() + x), limit);
+      const std::uint32_t end = turn.samples(std::size_t(y) * film_.width() + x);
       for (std::uint32_t i = film_.drawn(x, y); i < end;) {
         if (clock_.calls()) return;
         const std::uint32_t first = i;
-        for (; i < std::min(end, first + Sampler::kBlock); ++i) film_.add(x, y, sample_(x, y, i));
+        for (; i < std::min(end, first + Sampler::kBlock); ++i)
+          film_.add(x, y, sample_(x, y, i, turn.number));
         progress_.add(i - first);
       }
     }

@@ -13,10 +13,11 @@ namespace brume {
 
 class Film;
 
-/// Camera sample `index` of pixel (x, y): a pure function of the three, called by many threads,
-/// that does not throw.
-using SampleFunction =
-    std::function<CameraSample(std::uint32_t x, std::uint32_t y, std::uint32_t index)>;
+/// Camera sample `index` of pixel (x, y), drawn in `turn`: a pure function of the four, called by
+/// many threads, that does not throw. Pixels go on in turns, one block of samples in each on
+/// average, so that they may share what is made for a turn.
+using SampleFunction = std::function<CameraSample(std::uint32_t x, std::uint32_t y,
+                                                  std::uint32_t index, std::uint32_t turn)>;
 
 /// How far a render has come, besides the samples in its film.
 struct RenderState {

@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kRadius = 4;                  // [pixel] of the window that decides for a pixel
 constexpr std::uint32_t kFloorDivisor = 8;  // no pixel gets less than this part of the average
+constexpr std::uint32_t kFirstBlocks = 2;   // that every pixel gets
 constexpr double kLargestFactor = 8.0;      // nor more than this multiple
 /// Sample indices have 32 bits.
 constexpr std::uint32_t kMostBlocks = 0xffffffffu / Sampler::kBlock;
@@ -45,11 +46,17 @@ class SummedArea {
   std::vector<double> sums_;  // [height + 1][width + 1]
 };
 
-/// The longest prefix that every pixel has when the round before is done. Rounds at most double.
+/// That every pixel has after a round.
+std::uint32_t fewest_blocks(std::uint32_t blocks) {
+  return std::min(std::max(blocks / kFloorDivisor, kFirstBlocks), blocks);
+}
+
+/// The longest prefix that every pixel has when the round before is done.
 std::size_t guide_level(std::uint32_t blocks) {
   const auto& lengths = PixelGuide::kBlocks;
   std::size_t level = 0;
-  while (level + 1 < lengths.size() && lengths[level + 1] <= blocks / (2 * kFloorDivisor)) ++level;
+  const std::uint32_t known = fewest_blocks(round_before(blocks));
+  while (level + 1 < lengths.size() && lengths[level + 1] <= known) ++level;
   return level;
 }
 
@@ -87,19 +94,25 @@ std::uint32_t next_round(std::uint32_t blocks) {
   return std::min(blocks + std::max(blocks / 8, 1u), kMostBlocks);
 }
 
+std::uint32_t round_before(std::uint32_t blocks) {
+  std::uint32_t before = 0;
+  for (std::uint32_t next = next_round(0); next < blocks; next = next_round(next)) before = next;
+  return before;
+}
+
 SamplePlan even_plan(std::uint32_t blocks) {
   return {.even = blocks * Sampler::kBlock};
 }
 
 SamplePlan adaptive_plan(const Film& film, std::uint32_t blocks) {
   assert(film.layers().guide);
-  if (blocks < 2) return even_plan(blocks);  // nothing is known yet
+  if (blocks <= kFirstBlocks) return even_plan(blocks);  // nothing is known yet
   const std::vector<float> weight = weights(film, guide_level(blocks));
   double mean_weight = 0.0;
   for (const float w : weight) mean_weight += w / double(weight.size());
   if (!(mean_weight > 0.0)) return even_plan(blocks);
 
-  const double fewest = std::max(blocks / kFloorDivisor, 1u);
+  const double fewest = fewest_blocks(blocks);
   const double most = std::min(kLargestFactor * double(blocks), double(kMostBlocks));
   SamplePlan plan;
   plan.uneven.reserve(weight.size());

@@ -14,6 +14,8 @@ class Film;
 /// so that a render that was asked for less has done what one that is asked for more does first.
 /// It ends, and stays at its last value, with the last sample index.
 std::uint32_t next_round(std::uint32_t blocks);
+/// The round before, whose next_round() is `blocks`; 0 for the first.
+std::uint32_t round_before(std::uint32_t blocks);
 
 /// Samples that pixels are to have at the end of a round.
 struct SamplePlan {

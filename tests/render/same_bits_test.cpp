@@ -97,12 +97,15 @@ Image rendered(const TestScene& scene, int threads, std::uint32_t spp, std::uint
             {.albedo = true, .depth = true});
   const PathIntegrator integrator(*scene.loaded().scene, *scene.loaded().camera,
                                   scene.loaded().path);
-  const auto sample = [&](std::uint32_t x, std::uint32_t y, std::uint32_t index) {
+  const auto sample = [&](std::uint32_t x, std::uint32_t y, std::uint32_t index,
+                          std::uint32_t turn) {
     const std::uint32_t column = left + x, row = top + y;
     Sampler sampler(0, row * std::uint32_t(scene.width()) + column, index);
     const Vec2 film_point = scene.film_point(int(column), int(row), sampler);
     constexpr std::uint32_t kSpacing = 3;  // of pixels that share light paths
-    return integrator.sample(film_point, sampler, row % kSpacing * kSpacing + column % kSpacing);
+    return integrator.sample(
+        film_point, sampler,
+        {.seed = turn, .group = row % kSpacing * kSpacing + column % kSpacing});
   };
   render(sample, {.spp = spp, .threads = threads}, film);
   return develop(film);

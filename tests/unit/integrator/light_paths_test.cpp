@@ -110,20 +110,20 @@ std::vector<float> fingerprint(const LightPathSet& set) {
 TEST(LightPaths, AreAFunctionOfSeedAndGroup) {
   const Lit lit(kFoggyRoom), again(kFoggyRoom);
   const LightPaths& paths = lit.light_paths;
-  const std::vector<float> first = fingerprint(*paths.of(11, 3));
+  const std::vector<float> first = fingerprint(*paths.of({11, 3}));
   EXPECT_GT(first.size(), 100u);
-  EXPECT_EQ(fingerprint(*paths.of(11, 3)), first);
+  EXPECT_EQ(fingerprint(*paths.of({11, 3})), first);
   // Others push it out of where it was kept.
-  EXPECT_NE(fingerprint(*paths.of(12, 3)), first);
-  EXPECT_NE(fingerprint(*paths.of(11, 4)), first);
-  EXPECT_NE(fingerprint(*paths.of(11, 3 + LightPaths::kGroups)), first);
-  EXPECT_EQ(fingerprint(*paths.of(11, 3)), first);
-  EXPECT_EQ(fingerprint(*again.light_paths.of(11, 3)), first);
+  EXPECT_NE(fingerprint(*paths.of({12, 3})), first);
+  EXPECT_NE(fingerprint(*paths.of({11, 4})), first);
+  EXPECT_NE(fingerprint(*paths.of({11, 3 + LightPaths::kGroups})), first);
+  EXPECT_EQ(fingerprint(*paths.of({11, 3})), first);
+  EXPECT_EQ(fingerprint(*again.light_paths.of({11, 3})), first);
 }
 
 TEST(LightPaths, DifferInEveryBundleOfASet) {
   const Lit lit(kFoggyRoom);
-  const auto set = lit.light_paths.of(11, 3);
+  const auto set = lit.light_paths.of({11, 3});
   const auto choice = [&](std::uint32_t bundle) {
     return set->choose(bundle, Vec3(0.0f), kUnlimited, kAlike, 0.5f)->vertex->p;
   };
@@ -163,7 +163,7 @@ TEST(LightPaths, StandForAllLightThatArrives) {
   Rng rng(1);
   constexpr std::uint32_t kChoices = 64;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
-    const auto set = lit.light_paths.of(seed, 0);
+    const auto set = lit.light_paths.of({seed, 0});
     std::array<double, kParts> sums{};
     for (std::uint32_t bundle = 0; bundle < Sampler::kBlock; ++bundle)
       for (std::uint32_t i = 0; i < kChoices; ++i) {

@@ -20,15 +20,16 @@
 namespace brume {
 namespace {
 
-CameraSample noise(std::uint32_t x, std::uint32_t y, std::uint32_t index) {
-  Sampler sampler(1, y * 1000 + x, index);
+/// Depends on all that it is given.
+CameraSample noise(std::uint32_t x, std::uint32_t y, std::uint32_t index, std::uint32_t turn) {
+  Sampler sampler(1 + turn, y * 1000 + x, index);
   const Vec2 u = sampler.next_2d();
   return {.L = {u.x, u.y, 1.0f / (1e-3f + u.x)}, .alpha = sampler.next_1d(), .depth = u.y};
 }
 
-CameraSample slow(std::uint32_t x, std::uint32_t y, std::uint32_t index) {
+CameraSample slow(std::uint32_t x, std::uint32_t y, std::uint32_t index, std::uint32_t turn) {
   std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  return noise(x, y, index);
+  return noise(x, y, index, turn);
 }
 
 Film empty_film() {
@@ -76,9 +77,9 @@ TEST(Render, InterruptedAndContinuedIsTheSameAsUninterrupted) {
       const InterruptGuard guard;
       std::atomic<int> left = 12345 * (interrupts + 2);
       const RenderResult result = render(
-          [&left](std::uint32_t x, std::uint32_t y, std::uint32_t index) {
+          [&left](std::uint32_t x, std::uint32_t y, std::uint32_t index, std::uint32_t turn) {
             if (--left == 0) std::raise(SIGINT);
-            return noise(x, y, index);
+            return noise(x, y, index, turn);
           },
           settings, film, state);
       state = result.state;
@@ -126,9 +127,9 @@ TEST(Render, SavesCheckpointsWhileSamplesRest) {
                                     },
                                 .checkpoint_interval = 0.1};
   const RenderResult result = render(
-      [&](std::uint32_t x, std::uint32_t y, std::uint32_t index) {
+      [&](std::uint32_t x, std::uint32_t y, std::uint32_t index, std::uint32_t turn) {
         ++running;
-        const CameraSample sample = slow(x, y, index);
+        const CameraSample sample = slow(x, y, index, turn);
         --running;
         return sample;
       },
@@ -145,9 +146,9 @@ TEST(Render, EveryPixelGetsItsSamplesInOrder) {
     std::vector<std::uint32_t> next(20 * 9, 0);
     std::atomic<int> out_of_order = 0;
     const RenderResult result = render(
-        [&](std::uint32_t x, std::uint32_t y, std::uint32_t index) {
+        [&](std::uint32_t x, std::uint32_t y, std::uint32_t index, std::uint32_t turn) {
           if (next[y * 20 + x]++ != index) ++out_of_order;
-          return noise(x, y, index);
+          return noise(x, y, index, turn);
         },
         {.spp = spp, .threads = 4}, film);
     EXPECT_EQ(out_of_order, 0);
@@ -163,7 +164,8 @@ TEST(Render, PassesLeaveThePictureEven) {
   // pass ahead, and the first passes are short.
   Film film(16, 16);
   std::uint32_t furthest = 0;
-  const auto sample = [&](std::uint32_t x, std::uint32_t y, std::uint32_t index) {
+  const auto sample = [&](std::uint32_t x, std::uint32_t y, std::uint32_t index,
+                          std::uint32_t turn) {
     furthest = std::max(furthest, index);
     const std::uint32_t pass_end = index < 1   ? 1
                                    : index < 2 ? 2
@@ -171,9 +173,34 @@ TEST(Render, PassesLeaveThePictureEven) {
                                    : index < 8 ? 8
                                                : 16;
     EXPECT_LT(furthest, pass_end);
-    return noise(x, y, index);
+    return noise(x, y, index, turn);
   };
   render(sample, {.spp = 16, .threads = 1}, film);
+}
+
+TEST(Render, PixelsGoOnInTurns) {
+  // One block in each, if all get as many; by their share of the round, if not.
+  for (const bool adaptive : {false, true}) {
+    Film film = empty_film();
+    const std::size_t pixels = std::size_t(film.width()) * film.height();
+    std::vector<std::uint32_t> latest(pixels, 0);
+    std::atomic<int> uneven = 0, backward = 0;
+    std::atomic<std::uint32_t> furthest = 0;
+    const auto sample = [&](std::uint32_t x, std::uint32_t y, std::uint32_t index,
+                            std::uint32_t turn) {
+      if (turn != index / Sampler::kBlock) ++uneven;
+      std::uint32_t& before = latest[y * film.width() + x];
+      if (turn < before || turn < furthest) ++backward;
+      before = turn;
+      furthest = turn;
+      return noise(x, y, index, turn);
+    };
+    const RenderResult result = render(sample, {.error = 0.3, .adaptive = adaptive}, film);
+    EXPECT_EQ(backward, 0);
+    EXPECT_EQ(uneven > 0, adaptive);
+    EXPECT_EQ(furthest + 1, result.state.blocks);
+    EXPECT_NEAR(result.mean_spp / (result.state.blocks * Sampler::kBlock), 1.0, 0.1);
+  }
 }
 
 TEST(Render, UsesAsManyThreadsAsAsked) {
@@ -181,11 +208,11 @@ TEST(Render, UsesAsManyThreadsAsAsked) {
   std::mutex mutex;
   std::set<std::thread::id> seen;
   render(
-      [&](std::uint32_t x, std::uint32_t y, std::uint32_t index) {
+      [&](std::uint32_t x, std::uint32_t y, std::uint32_t index, std::uint32_t turn) {
         std::this_thread::sleep_for(std::chrono::microseconds(200));
         const std::lock_guard lock(mutex);
         seen.insert(std::this_thread::get_id());
-        return noise(x, y, index);
+        return noise(x, y, index, turn);
       },
       {.spp = 1, .threads = 3}, film);
   EXPECT_EQ(seen.size(), 3u);
@@ -216,9 +243,9 @@ TEST(Render, InterruptStopsPromptlyAndKeepsTheSamples) {
     Film film(64, 64);
     std::atomic<int> count = 0;
     const RenderResult result = render(
-        [&](std::uint32_t x, std::uint32_t y, std::uint32_t index) {
+        [&](std::uint32_t x, std::uint32_t y, std::uint32_t index, std::uint32_t turn) {
           if (++count == 20) std::raise(signal);
-          return slow(x, y, index);
+          return slow(x, y, index, turn);
         },
         {.spp = 16, .threads = 2}, film);
     EXPECT_EQ(result.reason, StopReason::kInterrupted);

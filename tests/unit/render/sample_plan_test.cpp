@@ -32,8 +32,8 @@ CameraSample spot(std::uint64_t seed, std::uint32_t x, std::uint32_t y, std::uin
 
 std::unique_ptr<const Film> rendered(std::uint64_t seed, const RenderSettings& settings) {
   auto film = std::make_unique<Film>(kWidth, kHeight, FilmLayers{.guide = true});
-  render([seed](std::uint32_t x, std::uint32_t y,
-                std::uint32_t index) { return spot(seed, x, y, index); },
+  render([seed](std::uint32_t x, std::uint32_t y, std::uint32_t index,
+                std::uint32_t) { return spot(seed, x, y, index); },
          settings, *film);
   return film;
 }
@@ -53,6 +53,30 @@ TEST(SamplePlan, RoundsGrowByAnEighth) {
   EXPECT_GT(std::uint64_t(even_plan(blocks).even), 4'000'000'000u);
 }
 
+TEST(SamplePlan, EachRoundKnowsTheOneBefore) {
+  std::uint32_t before = 0;
+  EXPECT_EQ(round_before(0), 0u);
+  for (std::uint32_t blocks = 1; blocks < 100'000; blocks = next_round(blocks)) {
+    EXPECT_EQ(round_before(blocks), before);
+    before = blocks;
+  }
+}
+
+TEST(SamplePlan, NoiseThatSamplesTakeFromEachOtherIsNone) {
+  // Stratified samples of a steep ramp leave little noise; independent ones of a flat one more.
+  const auto ramp_or_noise = [](std::uint32_t x, std::uint32_t y, std::uint32_t index,
+                                std::uint32_t) {
+    Sampler sampler(1, y * kWidth + x, index);
+    const float u = sampler.next_1d();
+    return CameraSample{.L = Rgb(x < kWidth / 2 ? 20.0f * u : 5.0f * sampler.rng().next_float())};
+  };
+  Film film(kWidth, kHeight, {.guide = true});
+  render(ramp_or_noise, {.spp = 2 * Sampler::kBlock}, film);
+  const SamplePlan plan = adaptive_plan(film, 10);
+  const std::size_t row = std::size_t(kHeight / 2) * kWidth;
+  EXPECT_GT(plan.samples(row + kWidth - 8), 2 * plan.samples(row + 8));
+}
+
 TEST(SamplePlan, NoisyPixelsGetMoreAndNoneIsForgotten) {
   const auto film = rendered(1, {.error = 0.05, .adaptive = true});
   const std::uint32_t noisy = film->samples(22, 16), quiet = film->samples(2, 2);
@@ -64,7 +88,7 @@ TEST(SamplePlan, NoisyPixelsGetMoreAndNoneIsForgotten) {
 
 TEST(SamplePlan, ReachesTheErrorWithFewerSamples) {
   const auto samples = [](bool adaptive) {
-    const auto film = rendered(1, {.error = 0.05, .adaptive = adaptive});
+    const auto film = rendered(1, {.error = 0.03, .adaptive = adaptive});
     std::uint64_t sum = 0;
     for (std::uint32_t y = 0; y < kHeight; ++y)
       for (std::uint32_t x = 0; x < kWidth; ++x) sum += film->samples(x, y);
@@ -75,20 +99,22 @@ TEST(SamplePlan, ReachesTheErrorWithFewerSamples) {
 
 TEST(SamplePlan, APixelsOwnSamplesDoNotDecideForIt) {
   // However noisy one pixel is, it gets what its neighbours' noise says; they get more for it.
-  const auto flat = [](std::uint32_t x, std::uint32_t y, std::uint32_t index) -> CameraSample {
+  const auto flat = [](std::uint32_t x, std::uint32_t y, std::uint32_t index,
+                       std::uint32_t) -> CameraSample {
     return {.L = Rgb(1.0f + Sampler(1, y * kWidth + x, index).next_1d())};
   };
-  const auto with_spike = [&](std::uint32_t x, std::uint32_t y, std::uint32_t index) {
-    if (x != 20 || y != 15) return flat(x, y, index);
-    return CameraSample{.L = Rgb(Sampler(1, 7, index).next_1d() < 0.1f ? 1e3f : 0.0f)};
+  const auto with_spike = [&](std::uint32_t x, std::uint32_t y, std::uint32_t index,
+                              std::uint32_t turn) {
+    if (x != 20 || y != 15) return flat(x, y, index, turn);
+    return CameraSample{.L = Rgb(Sampler(1, 7, index).rng().next_float() < 0.1f ? 1e3f : 0.0f)};
   };
-  constexpr std::uint32_t kBlocks = 4;
-  const auto plan_after_one_round = [&](const SampleFunction& sample) {
+  constexpr std::uint32_t kBlocks = 10;
+  const auto plan_after_two_rounds = [&](const SampleFunction& sample) {
     Film film(kWidth, kHeight, {.guide = true});
-    render(sample, {.spp = Sampler::kBlock}, film);
+    render(sample, {.spp = 2 * Sampler::kBlock}, film);
     return adaptive_plan(film, kBlocks);
   };
-  const SamplePlan without = plan_after_one_round(flat), with = plan_after_one_round(with_spike);
+  const SamplePlan without = plan_after_two_rounds(flat), with = plan_after_two_rounds(with_spike);
   const auto at = [](std::uint32_t x, std::uint32_t y) { return std::size_t(y) * kWidth + x; };
   EXPECT_LE(with.samples(at(20, 15)), without.samples(at(20, 15)));
   EXPECT_GT(with.samples(at(21, 15)), 4 * without.samples(at(21, 15)));
@@ -98,7 +124,8 @@ TEST(SamplePlan, APixelsOwnSamplesDoNotDecideForIt) {
 
 TEST(SamplePlan, AQuietPictureIsSampledEvenly) {
   Film film(9, 7, {.guide = true});
-  render([](std::uint32_t, std::uint32_t, std::uint32_t) { return CameraSample{.L = Rgb(1.0f)}; },
+  render([](std::uint32_t, std::uint32_t, std::uint32_t,
+            std::uint32_t) { return CameraSample{.L = Rgb(1.0f)}; },
          {.spp = 32}, film);
   for (const std::uint32_t blocks : {1u, 2u, 50u}) {
     const SamplePlan plan = adaptive_plan(film, blocks);
