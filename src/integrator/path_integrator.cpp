@@ -14,8 +14,11 @@ namespace {
 /// Flights after which roulette stops every path sooner or later, and after which a path is taken
 /// for one that has no way out.
 constexpr int kLongPath = 3000, kLostPath = 100'000;
-/// Scatterings up to which flights look for lights near to them; later ones matter too little.
+/// Scatterings up to which every flight looks for lights near to it. Later ones matter less, but
+/// light that they find much closer to a lamp than they are long has no bound: those that come
+/// within this part of their length look for it too.
 constexpr int kDepthThatSeeksLights = 2;
+constexpr float kNearLight = 0.1f;
 /// Where light paths are met: paths over the share of the pixel's light that they stand for, and
 /// how many of those that the camera's flight splits into scatter at most.
 constexpr float kPathsPerShare = 8.0f;
@@ -113,12 +116,12 @@ void PathIntegrator::follow(Path& path, Sampler& sampler) const {
     if (!hit && !(path.t_max < kInfinity)) path.medium = scene_.medium_to_infinity(path.medium);
     if (path.medium != nullptr) {
       const Medium& around = medium_around(path);
-      const Segment segment{
-          .ray = path.ray,
-          .t_end = hit ? hit->t : path.t_max,
-          .beta = path.beta,
-          .medium = &around,
-          .seeks_lights = settings_.lighting.near_lights && path.depth < kDepthThatSeeksLights};
+      const float t_end = hit ? hit->t : path.t_max;
+      const Segment segment{.ray = path.ray,
+                            .t_end = t_end,
+                            .beta = path.beta,
+                            .medium = &around,
+                            .seeks_lights = seeks_lights(path, around, t_end)};
       if (path.light == nullptr || path.depth > 0 || !split(path, segment, sampler)) {
         const FreeFlight flight =
             around.sample_free_flight(path.ray, segment.t_end, path.beta, sampler);
@@ -142,6 +145,15 @@ void PathIntegrator::follow(Path& path, Sampler& sampler) const {
     }
     alive = interact_with_surface(path, *hit, sampler) && survives_roulette(path, sampler);
   }
+}
+
+bool PathIntegrator::seeks_lights(const Path& path, const Medium& around, float t_end) const {
+  if (!settings_.lighting.near_lights) return false;
+  if (path.depth < kDepthThatSeeksLights) return true;
+  const auto scattering = around.scattering_at(path.ray, 0.0f, path.beta);
+  if (!scattering || is_black(scattering->value)) return false;
+  const float length = std::min(1.0f / max_component(scattering->value), t_end);
+  return scene_.lights().lights_with_pivot().is_within(kNearLight * length, path.ray, t_end);
 }
 
 bool PathIntegrator::split(Path& path, Segment segment, Sampler& sampler) const {

@@ -94,6 +94,7 @@ class PathIntegrator {
   bool survives_roulette(Path& path, Sampler& sampler) const;
 
   bool may_scatter(const Path& path) const;
+  bool seeks_lights(const Path& path, const Medium& around, float t_end) const;
   /// How often light may have scattered that scatters so often from there on to the camera.
   int scatterings_after(int scatterings) const;
   /// Whether light that has scattered so often is handed to the similar media.

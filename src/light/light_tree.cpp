@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "light/light_tree.h"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -29,6 +30,11 @@ Light::Pivot cluster_of(std::span<const LightTree::Member> members) {
   return {.center = center, .radius = float(std::sqrt(square)), .intensity = float(intensity)};
 }
 
+double distance_between(const Ray& ray, float t_end, const Vec3& p) {
+  const glm::dvec3 to_p = glm::dvec3(p) - glm::dvec3(ray.o), d(ray.d);
+  return glm::length(to_p - std::clamp(glm::dot(to_p, d), 0.0, double(t_end)) * d);
+}
+
 }  // namespace
 
 LightTree::LightTree(std::vector<Member> members) : members_(std::move(members)) {
@@ -41,6 +47,10 @@ void LightTree::build(std::uint32_t node) {
   const std::uint32_t begin = nodes_[node].begin, end = nodes_[node].end;
   const std::span<Member> members(members_.data() + begin, end - begin);
   nodes_[node].cluster = cluster_of(members);
+  Box3 box;
+  for (const Member& member : members) box.extend(member.pivot.center);
+  nodes_[node].center = box.center();
+  nodes_[node].radius = 0.5f * glm::length(box.size());
   if (members.size() <= kLeafSize) {
     for (const Member& member : members) {
       if (leaf_of_.size() <= member.light) leaf_of_.resize(member.light + 1, kNone);
@@ -49,8 +59,6 @@ void LightTree::build(std::uint32_t node) {
     return;
   }
 
-  Box3 box;
-  for (const Member& member : members) box.extend(member.pivot.center);
   const Vec3 size = box.size();
   const int axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
   const std::uint32_t middle = begin + (end - begin) / 2;
@@ -65,6 +73,18 @@ void LightTree::build(std::uint32_t node) {
   nodes_.push_back({.parent = node, .begin = middle, .end = end});
   build(child);
   build(child + 1);
+}
+
+bool LightTree::is_within(const Node& node, float distance, const Ray& ray, float t_end) const {
+  if (!node.is_leaf())
+    return distance_between(ray, t_end, node.center) < double(distance) + node.radius &&
+           (is_within(nodes_[node.child], distance, ray, t_end) ||
+            is_within(nodes_[node.child + 1], distance, ray, t_end));
+  const std::span<const Member> members(members_.data() + node.begin, node.size());
+  return std::ranges::any_of(members, [&](const Member& member) {
+    return member.pivot.radius < distance &&
+           distance_between(ray, t_end, member.pivot.center) < distance;
+  });
 }
 
 }  // namespace brume

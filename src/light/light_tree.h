@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/ray.h"
 #include "light/light.h"
 
 namespace brume {
@@ -30,6 +31,11 @@ class LightTree {
   std::size_t size() const { return members_.size(); }
   bool contains(std::size_t light) const {
     return light < leaf_of_.size() && leaf_of_[light] != kNone;
+  }
+
+  /// Whether a light smaller than `distance` is closer than that to the ray, up to `t_end` [unit].
+  bool is_within(float distance, const Ray& ray, float t_end) const {
+    return !nodes_.empty() && is_within(nodes_.front(), distance, ray, t_end);
   }
 
   /// Of all that is opened.
@@ -60,6 +66,8 @@ class LightTree {
 
   struct Node {
     Light::Pivot cluster{};
+    Vec3 center{0.0f};  // of a ball around all pivots
+    float radius = 0.0f;
     std::uint32_t parent = kNone;
     std::uint32_t child = kNone;       // the first of two beside each other; none in a leaf
     std::uint32_t begin = 0, end = 0;  // of its members
@@ -68,6 +76,7 @@ class LightTree {
   };
 
   void build(std::uint32_t node);
+  bool is_within(const Node& node, float distance, const Ray& ray, float t_end) const;
 
   /// Weight of a cluster that is not opened.
   template <class Weights>

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/rng.h"
+#include "core/warp.h"
 #include "light/importance.h"
 #include "support/chi_square.h"
 
@@ -133,6 +134,34 @@ TEST(LightTree, TakesLightsFarAwayForOne) {
   };
   tree.sample(at, {.per_weight = 1.0f / tree.total_weight(at)}, 0.4f);
   EXPECT_LT(asked, 60);
+}
+
+TEST(LightTree, FindsLightsBesideARay) {
+  constexpr float kDistance = 0.05f;
+  for (const int count : {1, 16, 100, 1000}) {
+    auto members = lamps(count);
+    // Those that are larger than the distance are not sought.
+    for (std::size_t i = 0; i < members.size(); i += 4) members[i].pivot.radius = 0.06f;
+    const LightTree tree(members);
+    Rng rng(3);
+    int near = 0;
+    for (int i = 0; i < 4000; ++i) {
+      const float x = rng.next_float(), y = rng.next_float(), z = rng.next_float();
+      const Ray ray{3.0f * Vec3(x, y, z) - 1.5f,
+                    sample_uniform_sphere({rng.next_float(), rng.next_float()})};
+      const float t_end = i % 3 == 0 ? kInfinity : 2.0f * rng.next_float();
+      bool expected = false;
+      for (const auto& member : members) {
+        const Vec3 to_lamp = member.pivot.center - ray.o;
+        const float t = std::clamp(glm::dot(to_lamp, ray.d), 0.0f, t_end);
+        expected |= member.pivot.radius < kDistance && glm::length(to_lamp - t * ray.d) < kDistance;
+      }
+      EXPECT_EQ(tree.is_within(kDistance, ray, t_end), expected) << count << " lamps, ray " << i;
+      near += expected ? 1 : 0;
+    }
+    if (count > 1) EXPECT_GT(near, 10) << count << " lamps";
+  }
+  EXPECT_FALSE(LightTree().is_within(1.0f, {Vec3(0.0f), {0.0f, 0.0f, 1.0f}}, kInfinity));
 }
 
 TEST(LightTree, HoldsManyLightsInOnePlace) {
